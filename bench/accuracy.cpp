@@ -19,8 +19,8 @@
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/phantom/phantom.h"
+#include "kontur/pipeline.h"
 #include "kontur/segment.h"
-#include "kontur/stages.h"
 #include "true_tilts.h"
 
 namespace kontur {

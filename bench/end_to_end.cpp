@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "experiments.h"
+#include "kontur/extract/voxelize.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/phantom.h"
 #include "machine.h"

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "kontur/drawing/orient.h"
+#include "kontur/fit/constraints.h"
 #include "kontur/fit/prepare.h"
 #include "kontur/solve/kernel_matrix.h"
 #include "kontur/solve/solve.h"

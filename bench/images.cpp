@@ -22,7 +22,7 @@
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/phantom/random.h"
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 
 namespace kontur {
 namespace {

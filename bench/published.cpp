@@ -3,6 +3,9 @@
 
 #include <chrono>
 
+#include "kontur/extract/voxelize.h"
+#include "kontur/fit/fit.h"
+
 namespace kontur::bench {
 namespace {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kontur/fit/constraints.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/segment.h"
 

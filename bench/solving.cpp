@@ -3,6 +3,8 @@
 #include "published.h"
 #include "runs.h"
 
+#include "kontur/solve/solve.h"
+
 namespace kontur::bench {
 namespace {
 

@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "kontur/extract/track.h"
+#include "kontur/extract/voxelize.h"
+#include "kontur/fit/fit.h"
 #include "kontur/fit/prepare.h"
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 
 namespace kontur {
 namespace {

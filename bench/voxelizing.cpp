@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "experiments.h"
 #include "kontur/extract/adaptive.h"
+#include "kontur/extract/voxelize.h"
 #include "kontur/measure/compare.h"
 #include "published.h"
 #include "runs.h"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# The headers that kontur/kontur.h includes, directly or not, relative to src/.
+# The headers that kontur/kontur.h and kontur/stages.h include, directly or not, relative to src/.
 function(kontur_public_headers result)
-  set(found kontur/kontur.h)
-  set(waiting kontur/kontur.h)
+  set(found kontur/kontur.h kontur/stages.h)
+  set(waiting ${found})
   while(waiting)
     list(POP_FRONT waiting header)
     file(STRINGS ${PROJECT_SOURCE_DIR}/src/${header} lines REGEX "^ *# *include +\"kontur/")

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "kontur/evidence.h"
 #include "kontur/sureness/suggest_plane.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/io/contours/contour_json.h"
+#include "kontur/sureness/surface_evidence.h"
 #include "kontur/view/outline.h"
 #include "outputs.h"
 

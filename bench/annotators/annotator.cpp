@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kontur/base/error.h"
+#include "kontur/evidence.h"
 #include "kontur/sureness/surface_uncertainty.h"
 
 namespace kontur {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kontur/segment.h"
+#include "kontur/sureness/surface_evidence.h"
 #include "truth.h"
 
 namespace kontur {

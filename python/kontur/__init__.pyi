@@ -8,6 +8,8 @@ from typing import Any, Literal, Protocol, Union, overload
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+from . import stages as stages
+
 _Path = Union[str, "os.PathLike[str]"]
 _Progress = Callable[[str, float], object]
 _Kernel = Literal["screened", "triharmonic", "biharmonic"]
@@ -52,16 +54,6 @@ class Body:
     def values(self, points: ArrayLike) -> NDArray[numpy.float64]: ...
     def outward_normals(self, points: ArrayLike) -> NDArray[numpy.float64]: ...
 
-class Bound:
-    @property
-    def position(self) -> NDArray[numpy.float64]: ...
-    @property
-    def least_mm(self) -> float: ...
-    @property
-    def most_mm(self) -> float: ...
-    @property
-    def noise_mm(self) -> float: ...
-
 class Comparison:
     @property
     def volume_a_ml(self) -> float: ...
@@ -73,24 +65,6 @@ class Comparison:
     def jaccard(self) -> float: ...
     @property
     def surface(self) -> SurfaceDistance | None: ...
-
-class ConstraintSet:
-    def __init__(
-        self,
-        centers: ArrayLike,
-        values: ArrayLike,
-        trust: ArrayLike | None = None,
-        noise_mm: ArrayLike | None = None,
-    ) -> None: ...
-    @property
-    def centers(self) -> NDArray[numpy.float64]: ...
-    @property
-    def values(self) -> NDArray[numpy.float64]: ...
-    @property
-    def trust(self) -> NDArray[numpy.float64]: ...
-    @property
-    def noise_mm(self) -> NDArray[numpy.float64]: ...
-    def __len__(self) -> int: ...
 
 class Contour:
     def __init__(
@@ -119,12 +93,6 @@ class Contour:
     def weight(self) -> float: ...
     def __len__(self) -> int: ...
     def __eq__(self, other: object) -> bool: ...
-
-class ContourOrientation:
-    @property
-    def normals(self) -> NDArray[numpy.float64]: ...
-    @property
-    def crossings(self) -> NDArray[numpy.float64]: ...
 
 class CodedConcept:
     def __init__(self, value: str, scheme: str, meaning: str = "") -> None: ...
@@ -326,17 +294,6 @@ class Disagreement:
     @property
     def max_unmatched_mm(self) -> float: ...
 
-class EdgeMap:
-    def __init__(self, values: ArrayLike) -> None: ...
-    @property
-    def width(self) -> int: ...
-    @property
-    def height(self) -> int: ...
-    @property
-    def strengths(self) -> NDArray[numpy.float64]: ...
-    def snap(self, pixel: tuple[int, int], radius: int) -> tuple[int, int]: ...
-    def subpixel_position(self, pixel: tuple[int, int]) -> tuple[float, float]: ...
-
 class EditedSurface:
     @property
     def finished(self) -> bool: ...
@@ -409,30 +366,6 @@ class EditorUpdate:
     @property
     def done(self) -> float: ...
 
-class FastFunction:
-    def __init__(
-        self,
-        function: ImplicitFunction,
-        *,
-        tolerance_mm: float = 0.01,
-        gradient_tolerance: float = 0.01,
-        expected_points: int = 0,
-    ) -> None: ...
-    def values(
-        self, points: ArrayLike, *, threads: int = 0, progress: _Progress | None = None, stop: _Stop | None = None
-    ) -> NDArray[numpy.float64]: ...
-    def gradients(
-        self, points: ArrayLike, *, threads: int = 0, progress: _Progress | None = None, stop: _Stop | None = None
-    ) -> NDArray[numpy.float64]: ...
-    @property
-    def exact(self) -> ImplicitFunction: ...
-    @property
-    def error_mm(self) -> float: ...
-    @property
-    def is_direct(self) -> bool: ...
-    @property
-    def kernel_values(self) -> int: ...
-
 class NearLines:
     @property
     def contour(self) -> int: ...
@@ -446,16 +379,6 @@ class NearLines:
     def are_nested(self) -> bool: ...
     @property
     def is_one(self) -> bool: ...
-
-class FillChanges:
-    @property
-    def holes(self) -> int: ...
-    @property
-    def removed(self) -> int: ...
-    @property
-    def crossings(self) -> list[tuple[int, int]]: ...
-    @property
-    def near_lines(self) -> list[NearLines]: ...
 
 class ExpectedDice:
     @property
@@ -504,28 +427,6 @@ class FilledLabel:
     def slices(self) -> list[int]: ...
     @property
     def warnings(self) -> list[str]: ...
-
-class FittedFunction:
-    @property
-    def function(self) -> ImplicitFunction: ...
-    @property
-    def report(self) -> SolveReport: ...
-    @property
-    def solves(self) -> int: ...
-    @property
-    def full_solves(self) -> int: ...
-    @property
-    def iterations(self) -> int: ...
-    @property
-    def merged(self) -> int: ...
-    @property
-    def bounded(self) -> int: ...
-    @property
-    def constraints(self) -> int: ...
-    @property
-    def tilt_change_degrees(self) -> float: ...
-    @property
-    def slopes(self) -> NDArray[numpy.float64]: ...
 
 class Grid:
     def __init__(self, size: Sequence[int], index_to_mm: ArrayLike, frame: Literal["LPS", "RAS"]) -> None: ...
@@ -614,12 +515,6 @@ class LiveEditor:
     def __enter__(self) -> LiveEditor: ...
     def __exit__(self, *args: object) -> None: ...
 
-class LiveWire:
-    def __init__(self, edges: EdgeMap, seed: tuple[int, int], reach: int = 256) -> None: ...
-    @property
-    def seed(self) -> tuple[int, int]: ...
-    def path_to(self, target: tuple[int, int]) -> NDArray[numpy.int32]: ...
-
 class Mask:
     def __init__(self, values: ArrayLike, grid: Grid, label: int | None = None) -> None: ...
     @property
@@ -639,14 +534,6 @@ class MeshTopology:
     def euler(self) -> int: ...
     @property
     def components(self) -> int: ...
-
-class Nesting:
-    @property
-    def depth(self) -> list[int]: ...
-    @property
-    def enclosing(self) -> list[list[int]]: ...
-    @property
-    def crossings(self) -> list[tuple[int, int]]: ...
 
 class PhantomCase:
     @property
@@ -693,29 +580,7 @@ class Plane:
     def from_uv(self, uv: ArrayLike) -> NDArray[numpy.float64]: ...
     def __eq__(self, other: object) -> bool: ...
 
-class PreparedContours:
-    @property
-    def positions(self) -> NDArray[numpy.float64]: ...
-    @property
-    def inplane_normals(self) -> NDArray[numpy.float64]: ...
-    @property
-    def plane_normals(self) -> NDArray[numpy.float64]: ...
-    @property
-    def contours(self) -> NDArray[numpy.int32]: ...
-    @property
-    def trust(self) -> NDArray[numpy.float64]: ...
-    @property
-    def crossings(self) -> NDArray[numpy.float64]: ...
-    @property
-    def bounds(self) -> list[Bound]: ...
-    @property
-    def ball(self) -> tuple[NDArray[numpy.float64], float]: ...
-    @property
-    def notes(self) -> list[str]: ...
-    @property
-    def coplanar(self) -> bool: ...
-
-class AskedPoint:
+class ImageShare:
     @property
     def position(self) -> NDArray[numpy.float64]: ...
     @property
@@ -747,7 +612,7 @@ class ImageReport:
     @property
     def on_contours_mm(self) -> float: ...
     @property
-    def asked(self) -> list[AskedPoint]: ...
+    def shares(self) -> list[ImageShare]: ...
 
 class Residual:
     @property
@@ -870,16 +735,6 @@ class _SegmentationWithMesh(Segmentation):
     @property
     def mesh(self) -> TriangleMesh: ...
 
-class SelfContact:
-    @property
-    def kind(self) -> str: ...
-    @property
-    def position(self) -> NDArray[numpy.float64]: ...
-    @property
-    def first(self) -> int: ...
-    @property
-    def second(self) -> int: ...
-
 class SharedSurface:
     @property
     def mesh(self) -> TriangleMesh: ...
@@ -887,24 +742,6 @@ class SharedSurface:
     def regions(self) -> list[list[int]]: ...
     @property
     def sides(self) -> NDArray[numpy.uint32]: ...
-
-class Solution:
-    @property
-    def function(self) -> ImplicitFunction: ...
-    @property
-    def report(self) -> SolveReport: ...
-
-class SolveReport:
-    @property
-    def solver(self) -> str: ...
-    @property
-    def centres(self) -> int: ...
-    @property
-    def iterations(self) -> int: ...
-    @property
-    def residual(self) -> float: ...
-    @property
-    def matrix_mb(self) -> float: ...
 
 class StructurePair:
     @property
@@ -946,14 +783,6 @@ class SuggestedPlane:
     def before(self) -> ExpectedDice: ...
     @property
     def after(self) -> ExpectedDice: ...
-
-class SurfaceLattice:
-    @property
-    def grid(self) -> Grid: ...
-    @property
-    def cells(self) -> NDArray[numpy.int64]: ...
-    @property
-    def evaluations(self) -> int: ...
 
 class SurfacePoint:
     def __init__(self, position: ArrayLike, outward: ArrayLike | None = None) -> None: ...
@@ -1013,8 +842,6 @@ class TriangleMesh:
     @property
     def triangles(self) -> NDArray[numpy.uint32]: ...
 
-def apply_fill_rule(contours: ContourSet, fill_rule: _FillRule = "even-odd") -> tuple[ContourSet, FillChanges]: ...
-
 def check_contour_set(
     contours: ContourSet,
     *,
@@ -1041,16 +868,12 @@ def compare(
     stop: _Stop | None = None,
 ) -> Comparison: ...
 
-def component_sizes(mask: Mask) -> list[int]: ...
-
 def contour_problems(
     contours: ContourSet,
     *,
     plane_tolerance_mm: float = 0.01,
     line_tolerance_mm: float = 0.002,
 ) -> list[str]: ...
-
-def contours_sha256(contours: ContourSet) -> str: ...
 
 def corner_distance_mm(a: Grid, b: Grid) -> float: ...
 
@@ -1060,17 +883,7 @@ def crossings(contour: Contour, plane: Plane) -> NDArray[numpy.float64]: ...
 
 def dense_liver_case(*, points: int = 25000, orthogonal: bool = False, by_hand: bool = False) -> PhantomCase: ...
 
-def disagreement(crossings: Sequence[Crossing]) -> Disagreement: ...
-
-def disagreement_by_contour(crossings: Sequence[Crossing], contour_count: int) -> list[Disagreement]: ...
-
 def encode_png(pixels: ArrayLike, provenance: dict[str, str] | None = None) -> bytes: ...
-
-def files_sha256(
-    paths: Sequence[_Path], *, progress: _Progress | None = None, stop: _Stop | None = None
-) -> str: ...
-
-def fill(surface: SurfaceLattice, threads: int = 0) -> Mask: ...
 
 @overload
 def fill_labels(
@@ -1144,40 +957,6 @@ def fill_labels(
     threads: int = 0,
     max_memory_mb: float | None = None,
 ) -> tuple[NDArray[Any], FillReport]: ...
-def find_crossings(contours: ContourSet) -> list[Crossing]: ...
-
-def find_nesting(contours: ContourSet, tolerance_mm: float) -> Nesting: ...
-
-def find_self_contacts(points: ArrayLike) -> list[SelfContact]: ...
-
-def fit(
-    prepared: PreparedContours,
-    *,
-    progress: _Progress | None = None,
-    stop: _Stop | None = None,
-    normals: _Normals = "surface",
-    rounds: int = 2,
-    start_smoothing: float = 0.01,
-    smoothing_factor: float = 0.3,
-    least_slope: float = 0.2,
-    early_tolerance_factor: float = 30.0,
-    tilt_points: int = 1000,
-    most_points: int = 0,
-    most_solves: int = 3,
-    normal_offset_mm: float = 1.0,
-    both_sides: bool = False,
-    normal_spacing_mm: float = 0.0,
-    slope_noise: float = 0.0,
-    merge_distance_mm: float = 0.0,
-    kernel: _Kernel = "screened",
-    ball: tuple[ArrayLike, float] | None = None,
-    solver: _Solver = "automatic",
-    smoothing: float = 0.0,
-    tolerance_mm: float = 0.001,
-    max_iterations: int = 500,
-    max_memory_mb: float = 16384.0,
-    threads: int = 0,
-) -> FittedFunction: ...
 
 def fit_plane(points: ArrayLike) -> Plane | None: ...
 
@@ -1186,8 +965,6 @@ def from_nibabel(image: Any) -> Image: ...
 def from_sitk(image: Any) -> Image: ...
 
 def grid_around(box: ArrayLike, spacing_mm: ArrayLike, margin_mm: float) -> Grid: ...
-
-def grid_sha256(grid: Grid) -> str: ...
 
 def interpolate(image: Image, points: ArrayLike, outside: float) -> NDArray[numpy.float64]: ...
 
@@ -1228,8 +1005,6 @@ def make_picture(
 
 def make_truth_mask(body: Body, grid: Grid, threads: int = 0) -> Mask: ...
 
-def orient(contour: Contour) -> ContourOrientation: ...
-
 def outline(mesh: TriangleMesh, plane: Plane) -> list[tuple[NDArray[numpy.float64], bool]]: ...
 
 def phantom_bodies() -> list[Body]: ...
@@ -1241,40 +1016,6 @@ def phantom_case_names() -> list[str]: ...
 def phantom_volumes() -> list[PhantomVolume]: ...
 
 def points_outside(contours: ContourSet, grid: Grid) -> int: ...
-
-def polygonize(
-    surface: SurfaceLattice,
-    function: ImplicitFunction,
-    threads: int = 0,
-    *,
-    progress: _Progress | None = None,
-    stop: _Stop | None = None,
-) -> TriangleMesh: ...
-
-def prepare(
-    contours: ContourSet,
-    *,
-    quality: float = 1.0,
-    least_segments: int = 48,
-    fill_rule: _FillRule = "even-odd",
-    gaps: bool = True,
-    click_margin_mm: float = 1.0,
-    bounds: bool = True,
-    copy_shift_mm: float = 0.0,
-) -> PreparedContours: ...
-
-def preview_surface(
-    function: ImplicitFunction,
-    starts: ArrayLike,
-    spacing_mm: float = 2.0,
-    threads: int = 0,
-    anchor_mm: ArrayLike = (0.0, 0.0, 0.0),
-    *,
-    progress: _Progress | None = None,
-    stop: _Stop | None = None,
-) -> TriangleMesh: ...
-
-def rasterize(contours: ContourSet, grid: Grid) -> Mask: ...
 
 def provenance(contours: ContourSet, grid: Grid, report: SegmentReport) -> dict[str, str]: ...
 
@@ -1354,8 +1095,6 @@ def read_image(
     volume: int | None = None,
 ) -> Image: ...
 
-def read_markups(path: _Path, plane_tolerance_mm: float = 0.01) -> ContourSet: ...
-
 def read_mask(
     path: _Path,
     label: int | None = None,
@@ -1377,22 +1116,6 @@ def read_provenance(path: _Path) -> dict[str, str]: ...
 
 def read_rtstruct(path: _Path) -> StructureSet: ...
 
-def reconcile(
-    prepared: PreparedContours,
-    crossings: Sequence[Crossing],
-    *,
-    conflicts: _Conflicts = "reconcile",
-    offset_mm: float = 1.0,
-    strength: float = 100.0,
-    reach: float = 3.0,
-) -> PreparedContours: ...
-
-def reduce(contour: Contour, quality: float = 1.0, min_points: int = 6) -> Contour: ...
-
-def subdivide(contour: Contour, least_segments: int = 0) -> Contour: ...
-
-def residual(function: ImplicitFunction, contours: ContourSet, threads: int = 0) -> Residual: ...
-
 def reslice(
     image: Image,
     plane: Plane,
@@ -1401,15 +1124,6 @@ def reslice(
     pixel_mm: float,
     outside: float,
 ) -> NDArray[numpy.float32]: ...
-
-def sample_everywhere(
-    function: ImplicitFunction,
-    grid: Grid,
-    threads: int = 0,
-    *,
-    progress: _Progress | None = None,
-    stop: _Stop | None = None,
-) -> SurfaceLattice: ...
 
 @overload
 def segment(
@@ -1501,34 +1215,6 @@ def shared_surface(
 
 def signed_volume_mm3(mesh: TriangleMesh) -> float: ...
 
-def slice_contours(
-    mask: Mask,
-    function: ImplicitFunction,
-    threads: int = 0,
-    *,
-    progress: _Progress | None = None,
-    stop: _Stop | None = None,
-) -> ContourSet: ...
-
-def solve(
-    constraints: ConstraintSet,
-    *,
-    progress: _Progress | None = None,
-    stop: _Stop | None = None,
-    kernel: _Kernel = "screened",
-    ball: tuple[ArrayLike, float] | None = None,
-    solver: _Solver = "automatic",
-    smoothing: float = 0.0,
-    tolerance_mm: float = 0.001,
-    max_iterations: int = 500,
-    max_memory_mb: float = 16384.0,
-    threads: int = 0,
-) -> Solution: ...
-
-def smooth_path(edges: EdgeMap, path: ArrayLike) -> NDArray[numpy.float64]: ...
-
-def spline(points: ArrayLike, closed: bool, step_mm: float) -> NDArray[numpy.float64]: ...
-
 def suggest_planes(
     segmentation: Segmentation,
     contours: ContourSet,
@@ -1560,26 +1246,6 @@ def trace(
     min_area_mm2: float = 0.0,
     threads: int = 0,
 ) -> ContourSet: ...
-
-def track_surface(
-    function: ImplicitFunction,
-    grid: Grid,
-    starts: ArrayLike,
-    threads: int = 0,
-    *,
-    progress: _Progress | None = None,
-    stop: _Stop | None = None,
-) -> SurfaceLattice: ...
-
-def track_surface_adaptively(
-    function: ImplicitFunction,
-    grid: Grid,
-    starts: ArrayLike,
-    threads: int = 0,
-    *,
-    progress: _Progress | None = None,
-    stop: _Stop | None = None,
-) -> SurfaceLattice: ...
 
 def without_duplicate_points(contours: ContourSet) -> ContourSet: ...
 def without_lines(
@@ -1635,8 +1301,6 @@ def write_image(
     label_names: dict[int, str] = ...,
     label_tags: dict[int, str] = ...,
 ) -> None: ...
-
-def write_markups(path: _Path, contours: ContourSet, provenance: dict[str, str] | None = None) -> None: ...
 
 def write_mask(
     path: _Path,

@@ -48,7 +48,7 @@ def _surface(segmentation):
     function = segmentation.function
     points = function.centers * function.frame_scale_mm + function.frame_center_mm
     spacing_mm = max(float((points.max(axis=0) - points.min(axis=0)).max()) / 60, 1e-6)
-    return _core.preview_surface(function, points, spacing_mm=spacing_mm)
+    return _core._stages.preview_surface(function, points, spacing_mm=spacing_mm)
 
 
 def _picture(mesh, contours, image=None):
@@ -66,7 +66,7 @@ def _report_rows(report):
         ("residual", f"{report.residual.max_mm:.3g} mm (max), {report.residual.rms_mm:.3g} mm (rms)"),
     ]
     if report.crossings:
-        agreement = _core.disagreement(report.crossings)
+        agreement = _core._stages.disagreement(report.crossings)
         rows.append(("disagreement", f"{agreement.max_mm:.3g} mm (max), {agreement.rms_mm:.3g} mm (rms) at {agreement.matched} crossings"))
     rows.append(("time", f"{sum(report.seconds.values()):.2f} s"))
     return rows + [("warning", warning) for warning in report.warnings]

@@ -4,7 +4,7 @@
 #include "define.h"
 #include "run.h"
 
-// One function for each source: it adds its part of the library to the module. Types come before what uses them.
+// One function for each source: it adds its part of the library to the module, or to its submodule of stages. Types come before what uses them.
 
 namespace kontur::python {
 
@@ -13,24 +13,24 @@ void bind_contours(py::module_& m);
 void bind_grids(py::module_& m);
 void bind_volumes(py::module_& m);
 void bind_meshes(py::module_& m);
-void bind_functions(py::module_& m);
-void bind_fast_functions(py::module_& m);
-void bind_fitting(py::module_& m);
-void bind_constraints(py::module_& m);
-void bind_extraction(py::module_& m);
+void bind_functions(py::module_& m, py::module_& stages);
+void bind_fast_functions(py::module_& stages);
+void bind_fitting(py::module_& stages);
+void bind_constraints(py::module_& stages);
+void bind_extraction(py::module_& m, py::module_& stages);
 void bind_segment(py::module_& m);
 void bind_together(py::module_& m);
 void bind_shared_surfaces(py::module_& m);
 void bind_uncertainty_types(py::module_& m);
 void bind_uncertainty(py::module_& m);
-void bind_crossings(py::module_& m);
-void bind_curves(py::module_& m);
+void bind_crossings(py::module_& m, py::module_& stages);
+void bind_curves(py::module_& m, py::module_& stages);
 void bind_labels(py::module_& m);
 void bind_editor(py::module_& m);
 void bind_measures(py::module_& m);
 void bind_findings(py::module_& m);
 void bind_pictures(py::module_& m);
-void bind_livewire(py::module_& m);
+void bind_livewire(py::module_& stages);
 void bind_files(py::module_& m);
 void bind_images(py::module_& m);
 void bind_attributes(py::module_& m);

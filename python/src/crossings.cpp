@@ -5,7 +5,7 @@
 
 namespace kontur::python {
 
-void bind_crossings(py::module_& m) {
+void bind_crossings(py::module_& m, py::module_& stages) {
     py::class_<Crossing> crossing(m, "Crossing", "A place where a contour passes through the plane of another one.");
     Fields(crossing)
         .field("contour", &Crossing::contour, "int: index of the contour that passes through the plane of")
@@ -38,20 +38,20 @@ void bind_crossings(py::module_& m) {
     });
 
     define(
-        m, "find_crossings", R"(Every place where closed contours of different planes meet: list of Crossing.
+        stages, "find_crossings", R"(Every place where closed contours of different planes meet: list of Crossing.
 
 Examples
 --------
->>> crossings = kontur.find_crossings(kontur.phantom_case("liver_orthogonal14").contours)
->>> kontur.disagreement(crossings).max_mm < 0.1
+>>> crossings = kontur.stages.find_crossings(kontur.phantom_case("liver_orthogonal14").contours)
+>>> kontur.stages.disagreement(crossings).max_mm < 0.1
 True
 )",
         [](const ContourSet& contours) { return unlocked([&] { return find_crossings(contours); }); }, py::arg("contours"));
     define(
-        m, "disagreement", "The Disagreement over a list of Crossing.",
+        stages, "disagreement", "The Disagreement over a list of Crossing.",
         [](const std::vector<Crossing>& crossings) { return disagreement(crossings); }, py::arg("crossings"));
     define(
-        m, "disagreement_by_contour",
+        stages, "disagreement_by_contour",
         "The same for each contour, over the crossings that it takes part in: list of Disagreement.",
         [](const std::vector<Crossing>& crossings, std::size_t contour_count) {
             return disagreement_by_contour(crossings, contour_count);

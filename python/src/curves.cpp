@@ -3,6 +3,7 @@
 
 #include "bindings.h"
 #include "fields.h"
+#include "kontur/shape/apply_fill_rule.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/fill_rule.h"
 #include "kontur/shape/provenance.h"
@@ -38,8 +39,8 @@ std::string word(SelfContact::Kind kind) {
     return kWords[static_cast<std::size_t>(kind)];
 }
 
-void bind_types(py::module_& m) {
-    py::class_<Nesting> nesting(m, "Nesting", "Which closed contours of a plane lie inside others.");
+void bind_types(py::module_& m, py::module_& stages) {
+    py::class_<Nesting> nesting(stages, "Nesting", "Which closed contours of a plane lie inside others.");
     nesting.def_readonly("depth", &Nesting::depth, "list of int: per contour, how many others enclose it.");
     nesting.def_readonly("enclosing", &Nesting::enclosing, "list of list of int: per contour, which ones.");
     nesting.def_readonly("crossings", &Nesting::crossings, "list of (int, int): pairs that overlap in part.");
@@ -55,14 +56,14 @@ void bind_types(py::module_& m) {
         .field("is_one", &NearLines::is_one, "bool: taken for one line; otherwise the inner one is a hole.")
         .picklable();
 
-    py::class_<FillChanges> changes(m, "FillChanges", "What `apply_fill_rule` did.");
+    py::class_<FillChanges> changes(stages, "FillChanges", "What `apply_fill_rule` did.");
     changes.def_readonly("holes", &FillChanges::holes, "int: contours that became holes.");
     changes.def_readonly("removed", &FillChanges::removed, "int: contours taken out.");
     changes.def_readonly("crossings", &FillChanges::crossings, "list of (int, int): pairs that overlap in part.");
     changes.def_readonly("near_lines", &FillChanges::near_lines,
                          "list of NearLines: taken for one line, or a hole that leaves a thin wall; indices of the result.");
 
-    py::class_<SelfContact> contact(m, "SelfContact", "A place where two parts of a closed polygon meet.");
+    py::class_<SelfContact> contact(stages, "SelfContact", "A place where two parts of a closed polygon meet.");
     contact.def_property_readonly(
         "kind", [](const SelfContact& c) { return word(c.kind); }, "str: 'crossing', 'touch' or 'fold'.");
     contact.def_property_readonly(
@@ -74,10 +75,10 @@ void bind_types(py::module_& m) {
 
 }  // namespace
 
-void bind_curves(py::module_& m) {
-    bind_types(m);
+void bind_curves(py::module_& m, py::module_& stages) {
+    bind_types(m, stages);
     define(
-        m, "spline", R"(The centripetal Catmull-Rom curve through points.
+        stages, "spline", R"(The centripetal Catmull-Rom curve through points.
 
 Parameters
 ----------
@@ -95,7 +96,7 @@ ndarray, shape (m, 3), float64
 Examples
 --------
 >>> square = [[0, 0, 5], [10, 0, 5], [10, 10, 5], [0, 10, 5]]
->>> rounded = kontur.Contour(kontur.spline(square, closed=True, step_mm=0.5))
+>>> rounded = kontur.Contour(kontur.stages.spline(square, closed=True, step_mm=0.5))
 >>> len(rounded) > 60
 True
 )",
@@ -104,7 +105,7 @@ True
         },
         py::arg("points"), py::arg("closed"), py::arg("step_mm"));
     define(
-        m, "find_nesting", R"(Which closed contours of a plane lie inside others.
+        stages, "find_nesting", R"(Which closed contours of a plane lie inside others.
 
 Parameters
 ----------
@@ -121,7 +122,7 @@ Nesting
         },
         py::arg("contours"), py::arg("tolerance_mm"));
     define(
-        m, "apply_fill_rule", R"(Makes each contour's `hole` say on which of its sides the object lies.
+        stages, "apply_fill_rule", R"(Makes each contour's `hole` say on which of its sides the object lies.
 
 Parameters
 ----------
@@ -137,7 +138,7 @@ Returns
 Examples
 --------
 >>> ring = [kontur.Contour(r * np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])) for r in (10, 5)]
->>> filled, changes = kontur.apply_fill_rule(kontur.ContourSet(ring))
+>>> filled, changes = kontur.stages.apply_fill_rule(kontur.ContourSet(ring))
 >>> [contour.hole for contour in filled.contours], changes.holes
 ([False, True], 1)
 )",
@@ -147,7 +148,7 @@ Examples
         },
         py::arg("contours"), py::arg("fill_rule") = FillRule{});
     define(
-        m, "find_self_contacts", R"(All places where a closed polygon meets itself, decided exactly.
+        stages, "find_self_contacts", R"(All places where a closed polygon meets itself, decided exactly.
 
 Parameters
 ----------
@@ -160,7 +161,7 @@ list of SelfContact
 
 Examples
 --------
->>> [contact] = kontur.find_self_contacts([[0, 0], [10, 10], [10, 0], [0, 10]])
+>>> [contact] = kontur.stages.find_self_contacts([[0, 0], [10, 10], [10, 0], [0, 10]])
 >>> contact.kind, contact.position.tolist()
 ('crossing', [5.0, 5.0])
 )",
@@ -169,11 +170,6 @@ Examples
             return unlocked([&] { return find_self_contacts(polygon).contacts; });
         },
         py::arg("points"));
-    define(m, "contours_sha256",
-           "SHA-256 of everything drawn, 64 hexadecimal digits: equal contours have equal digests, whatever file they come "
-           "from; the name does not count.",
-           &contours_sha256, py::arg("contours"));
-    define(m, "grid_sha256", "SHA-256 of the grid's size and affine, 64 hexadecimal digits.", &grid_sha256, py::arg("grid"));
 }
 
 }  // namespace kontur::python

@@ -19,8 +19,8 @@ Keywords<TraceOptions> trace_keywords() {
         .field("min_area_mm2", &TraceOptions::min_area_mm2, "Smaller contours are dropped.");
 }
 
-void bind_lattice(py::module_& m) {
-    py::class_<SurfaceLattice> lattice(m, "SurfaceLattice",
+void bind_lattice(py::module_& stages) {
+    py::class_<SurfaceLattice> lattice(stages, "SurfaceLattice",
                                        "Where the surface passes through a grid, and the values found there.");
     lattice.def_property_readonly(
         "grid", [](const SurfaceLattice& s) { return s.lattice.grid(); }, "Grid");
@@ -36,10 +36,10 @@ void bind_lattice(py::module_& m) {
 
 }  // namespace
 
-void bind_extraction(py::module_& m) {
-    bind_lattice(m);
+void bind_extraction(py::module_& m, py::module_& stages) {
+    bind_lattice(stages);
     define(
-        m, "track_surface", R"(Follows the surface from points on it.
+        stages, "track_surface", R"(Follows the surface from points on it.
 
 Parameters
 ----------
@@ -63,7 +63,7 @@ SurfaceLattice
         },
         py::arg("function"), py::arg("grid"), py::arg("starts"), kThreads, py::kw_only(), kProgress, kStop);
     define(
-        m, "track_surface_adaptively",
+        stages, "track_surface_adaptively",
         R"(Follows the surface as `track_surface` does, from a fraction of the function values.
 
 A coarse lattice first, then interpolation; values where that leaves the sign in doubt. Masks differ from those of
@@ -91,7 +91,7 @@ SurfaceLattice
         },
         py::arg("function"), py::arg("grid"), py::arg("starts"), kThreads, py::kw_only(), kProgress, kStop);
     define(
-        m, "preview_surface", R"(The surface through the starts on a lattice of its own, whatever grid a mask would have.
+        stages, "preview_surface", R"(The surface through the starts on a lattice of its own, whatever grid a mask would have.
 
 Parameters
 ----------
@@ -120,7 +120,7 @@ TriangleMesh
         py::arg("function"), py::arg("starts"), py::arg("spacing_mm") = PreviewOptions{}.spacing_mm, kThreads,
         py::arg("anchor_mm") = py::make_tuple(0.0, 0.0, 0.0), py::kw_only(), kProgress, kStop);
     define(
-        m, "slice_contours", R"(The surface where it passes through the slices (constant k) of its mask's grid.
+        stages, "slice_contours", R"(The surface where it passes through the slices (constant k) of its mask's grid.
 
 Parameters
 ----------
@@ -142,7 +142,7 @@ ContourSet
         },
         py::arg("mask"), py::arg("function"), kThreads, py::kw_only(), kProgress, kStop);
     define(
-        m, "sample_everywhere", R"(Evaluates every voxel centre: slow, and finds what no start leads to.
+        stages, "sample_everywhere", R"(Evaluates every voxel centre: slow, and finds what no start leads to.
 
 Parameters
 ----------
@@ -162,13 +162,13 @@ SurfaceLattice
         },
         py::arg("function"), py::arg("grid"), kThreads, py::kw_only(), kProgress, kStop);
     define(
-        m, "fill", "The Mask of the voxels inside of the surface found.",
+        stages, "fill", "The Mask of the voxels inside of the surface found.",
         [](const SurfaceLattice& surface, int threads) {
             return unlocked([&] { return fill(surface, {.threads = threads}); });
         },
         py::arg("surface"), kThreads);
     define(
-        m, "polygonize", R"(The surface as a closed TriangleMesh with normals.
+        stages, "polygonize", R"(The surface as a closed TriangleMesh with normals.
 
 Parameters
 ----------
@@ -189,7 +189,7 @@ TriangleMesh
         },
         py::arg("surface"), py::arg("function"), kThreads, py::kw_only(), kProgress, kStop);
     define(
-        m, "rasterize", R"(The voxels that contours drawn on the grid's slices (constant k) enclose, even-odd.
+        stages, "rasterize", R"(The voxels that contours drawn on the grid's slices (constant k) enclose, even-odd.
 
 Parameters
 ----------

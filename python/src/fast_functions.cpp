@@ -90,7 +90,7 @@ Examples
 >>> function = kontur.segment(case.contours, kontur.grid_around(case.contours.bounding_box, [8, 8, 8], 10)).function
 >>> box = case.contours.bounding_box
 >>> points = np.random.default_rng(1).uniform(*box, (100_000, 3))
->>> fast = kontur.FastFunction(function, expected_points=len(points))
+>>> fast = kontur.stages.FastFunction(function, expected_points=len(points))
 >>> bool(abs(fast.values(points[:1000]) - function(points[:1000])).max() < 0.01)
 True
 )",

@@ -2,8 +2,6 @@
 #include "bindings.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/contours/contour_json.h"
-#include "kontur/io/contours/markups.h"
-#include "kontur/io/file_digest.h"
 #include "kontur/io/meshes/mesh.h"
 #include "kontur/io/read_provenance.h"
 #include "notes.h"
@@ -64,12 +62,6 @@ ContourSet
     define(m, "write_contour_json", "Writes kontur's contour file; reading it gives the same numbers.",
            writer(&write_contour_json), py::arg("path"), py::arg("contours"), made);
     define(
-        m, "read_markups", "The ContourSet of the closed curves in a 3D Slicer markups file.",
-        [](const fs::path& path, double plane_tolerance_mm) { return read_markups(path, {.plane_tolerance_mm = plane_tolerance_mm}); },
-        py::arg("path"), py::arg("plane_tolerance_mm") = ReadMarkupsOptions{}.plane_tolerance_mm);
-    define(m, "write_markups", "Writes one closed curve for each contour, as 3D Slicer reads it.", writer(&write_markups),
-           py::arg("path"), py::arg("contours"), made);
-    define(
         m, "read_mesh", "The TriangleMesh of an STL, PLY or OBJ file, turned to LPS where it declares RAS.",
         [](const fs::path& path) { return unlocked([&] { return read_mesh(path); }); }, py::arg("path"));
     define(
@@ -107,24 +99,6 @@ dict of str to str
             return items;
         },
         py::arg("path"));
-    define(
-        m, "files_sha256", R"(SHA-256 of files, as 64 hexadecimal digits.
-
-Of a folder: of the sorted digests of its files, one per line. Of several paths: of their digests in this order, one per line.
-
-Parameters
-----------
-paths : sequence of paths
-@progress
-
-Returns
--------
-str
-)",
-        [](const std::vector<fs::path>& paths, const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Work& work) { return files_sha256(paths, work); });
-        },
-        py::arg("paths"), py::kw_only(), kProgress, kStop);
 }
 
 }  // namespace kontur::python

@@ -307,7 +307,7 @@ SingularSystemError
 Examples
 --------
 >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [.2, .2, .2]])
->>> solution = kontur.solve(kontur.ConstraintSet(corners, [0, 0, 0, 0, 1]), solver="dense")
+>>> solution = kontur.stages.solve(kontur.stages.ConstraintSet(corners, [0, 0, 0, 0, 1]), solver="dense")
 >>> bool(abs(solution.function(corners[4]) - 1) < 1e-9)
 True
 )",

@@ -50,7 +50,7 @@ py::array_t<double> gradients_at(const ImplicitFunction& function, const ArrayOf
 
 }  // namespace
 
-void bind_functions(py::module_& m) {
+void bind_functions(py::module_& m, py::module_& stages) {
     py::class_<ImplicitFunction> function(m, "ImplicitFunction", R"(The fitted surface as a function f of space. Immutable.
 
 f(x) = p0 + p . x + sum of w_j phi(|x - c_j|); f > 0 inside, in mm near the surface. Calling it gives its values.
@@ -143,7 +143,7 @@ ndarray, shape (..., 3), float64
         return py::str("<Residual: max {:.3g} mm, rms {:.3g} mm>").format(r.max_mm, r.rms_mm);
     });
     define(
-        m, "residual", R"(First-order distance |f| / |grad f| of the surface from every drawn point.
+        stages, "residual", R"(First-order distance |f| / |grad f| of the surface from every drawn point.
 
 Parameters
 ----------

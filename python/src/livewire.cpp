@@ -62,10 +62,10 @@ Examples
 --------
 >>> rows, columns = np.mgrid[:64, :64]
 >>> disc = np.hypot(rows - 32, columns - 32) < 20
->>> edges = kontur.EdgeMap(100 * disc)
+>>> edges = kontur.stages.EdgeMap(100 * disc)
 >>> start = edges.snap((51, 31), radius=3)
->>> path = kontur.LiveWire(edges, start).path_to(edges.snap((32, 12), radius=3))
->>> line = kontur.smooth_path(edges, path)
+>>> path = kontur.stages.LiveWire(edges, start).path_to(edges.snap((32, 12), radius=3))
+>>> line = kontur.stages.smooth_path(edges, path)
 >>> bool(abs(np.hypot(*(line - [32, 32]).T) - 20).max() < 1)
 True
 )");

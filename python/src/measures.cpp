@@ -2,7 +2,6 @@
 #include "bindings.h"
 #include "fields.h"
 #include "kontur/measure/compare.h"
-#include "kontur/measure/components.h"
 
 namespace kontur::python {
 
@@ -62,9 +61,6 @@ Examples
             return run({progress, stop, threads}, [&](const Work& work) { return compare(a, b, work); });
         },
         py::arg("a"), py::arg("b"), kThreads, py::kw_only(), kProgress, kStop);
-    define(
-        m, "component_sizes", "Voxel counts of the mask's face-connected components, largest first: list of int.",
-        [](const Mask& mask) { return unlocked([&] { return component_sizes(mask); }); }, py::arg("mask"));
 }
 
 }  // namespace kontur::python

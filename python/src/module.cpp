@@ -42,20 +42,21 @@ PYBIND11_MODULE(_core, m) {
         }
     });
     m.attr("__version__") = KONTUR_VERSION;
+    py::module_ stages = m.def_submodule("_stages");
     m.def("_error_kinds", &kontur::python::error_kinds);
     bind_grids(m);
     bind_planes(m);
     bind_attributes(m);
     bind_contours(m);
-    bind_crossings(m);
-    bind_curves(m);
+    bind_crossings(m, stages);
+    bind_curves(m, stages);
     bind_volumes(m);
     bind_meshes(m);
-    bind_functions(m);
-    bind_fast_functions(m);
-    bind_constraints(m);
-    bind_fitting(m);
-    bind_extraction(m);
+    bind_functions(m, stages);
+    bind_fast_functions(stages);
+    bind_constraints(stages);
+    bind_fitting(stages);
+    bind_extraction(m, stages);
     bind_uncertainty_types(m);
     bind_segment(m);
     bind_together(m);
@@ -66,7 +67,7 @@ PYBIND11_MODULE(_core, m) {
     bind_measures(m);
     bind_findings(m);
     bind_pictures(m);
-    bind_livewire(m);
+    bind_livewire(stages);
     bind_files(m);
     bind_images(m);
     bind_dicom(m);

@@ -61,10 +61,10 @@ py::object mesh_of(const py::object& self) {
 }
 
 void bind_image_report(py::module_& m) {
-    py::class_<AskedPoint> asked(m, "AskedPoint", "A place of the surface at which the image was asked.");
-    Fields(asked)
-        .field("position", &AskedPoint::position, "ndarray, shape (3,): mm.")
-        .field("share", &AskedPoint::share, "float: of the error without the image that it leaves, 0 to 1.")
+    py::class_<ImageShare> share(m, "ImageShare", "A place of the surface at which the image was asked.");
+    Fields(share)
+        .field("position", &ImageShare::position, "ndarray, shape (3,): mm.")
+        .field("share", &ImageShare::share, "float: of the error without the image that it leaves, 0 to 1.")
         .picklable();
     py::class_<ImageReport> type(m, "ImageReport", "What became of the image between the contours.");
     Fields(type)
@@ -89,7 +89,7 @@ void bind_image_report(py::module_& m) {
         .field("largest_move_mm", &ImageReport::largest_move_mm, "float: of the surface.")
         .field("intensities", &ImageReport::intensities, "int: read from the image.")
         .field("on_contours_mm", &ImageReport::on_contours_mm, "float: the largest change of f at any drawn point.")
-        .field("asked", &ImageReport::asked, "list of AskedPoint: where the image was asked.")
+        .field("shares", &ImageReport::shares, "list of ImageShare: where the image was asked.")
         .picklable();
     type.def("__str__", [](const ImageReport& report) { return sentence(report); });
 }

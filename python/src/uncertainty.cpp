@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
 #include "fields.h"
-#include "kontur/segment.h"
-#include "kontur/sureness/suggest_plane.h"
-#include "kontur/sureness/surface_uncertainty.h"
-#include "kontur/sureness/uncertainty_map.h"
+#include "kontur/suggest.h"
 
 namespace kontur::python {
 
@@ -123,8 +120,8 @@ True
             if (count < 1)
                 throw Error(ErrorKind::invalid_input, std::to_string(count) + " planes are asked for; at least 1 is needed");
             return unlocked([&] {
-                return suggest_planes(gather_evidence(made, contours, {.threads = threads}), contours,
-                                      static_cast<std::size_t>(count), {among, grid, avoid}, {.threads = threads})
+                return suggest_planes(made, contours, static_cast<std::size_t>(count), {among, grid, avoid},
+                                      {.threads = threads})
                     .planes;
             });
         },
@@ -162,8 +159,7 @@ True
         [](const Segmentation& made, const ContourSet& contours, const ArrayOf<double>& points, int threads) {
             const std::span<const Vec3> rows = points_of(points);
             std::vector<double> widths = unlocked([&] {
-                return half_widths_mm(gather_evidence(made, contours, {.threads = threads}), {rows.begin(), rows.end()},
-                                      {.threads = threads});
+                return half_widths_mm(made, contours, {rows.begin(), rows.end()}, {.threads = threads});
             });
             const auto count = static_cast<py::ssize_t>(widths.size());
             return owning_array(std::move(widths), {count});
@@ -189,10 +185,7 @@ Image
     float32, mm, at the voxels on both sides of the border; 0 elsewhere, and below three different planes everywhere.
 )",
         [](const Segmentation& made, const ContourSet& contours, int threads) {
-            return unlocked([&] {
-                return uncertainty_map(made.mask, gather_evidence(made, contours, {.threads = threads}),
-                                       {.threads = threads});
-            });
+            return unlocked([&] { return uncertainty_map(made, contours, {.threads = threads}); });
         },
         py::arg("segmentation"), py::arg("contours"), kThreads);
 }

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What Python makes and what the command line makes are the same bytes."""
+import hashlib
 import os
 import subprocess
 
 import kontur
 import pytest
+
+
+def sha256(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def command_line(*words):
@@ -27,8 +32,8 @@ def test_the_same_bytes_as_the_command_line(tmp_path, name, options, words):
     contours, image = kontur.read_contours(tmp_path / "contours.json"), kontur.read_image(tmp_path / "image.nrrd")
     result = kontur.segment(contours, image.grid, image=image, mesh=True, **options)
     made = kontur.provenance(contours, image.grid, result.report) | {
-        "contour_files_sha256": kontur.files_sha256([tmp_path / "contours.json"]),
-        "image_sha256": kontur.files_sha256([tmp_path / "image.nrrd"]),
+        "contour_files_sha256": sha256(tmp_path / "contours.json"),
+        "image_sha256": sha256(tmp_path / "image.nrrd"),
     }
     for mask, mesh in (("m.nii.gz", "m.stl"), ("m.nrrd", "m.ply"), ("m.mha", "m.obj")):
         command_line("segment", tmp_path / "contours.json", "--image", tmp_path / "image.nrrd",
@@ -49,8 +54,8 @@ def test_tracing_gives_the_same_bytes(tmp_path, case, kidney):
     contours = kontur.ContourSet(kontur.trace(mask, planes).contours, attributes=made)
     kontur.write_contours(tmp_path / "b.json", contours, provenance={
         "made_by": "kontur trace",
-        "mask_sha256": kontur.files_sha256([tmp_path / "mask.nii.gz"]),
-        "planes_sha256": kontur.files_sha256([tmp_path / "planes.json"]),
+        "mask_sha256": sha256(tmp_path / "mask.nii.gz"),
+        "planes_sha256": sha256(tmp_path / "planes.json"),
         "version": kontur.__version__,
         "options": "step_mm=0 tolerance_mm=1e-06 min_area_mm2=0",
     })

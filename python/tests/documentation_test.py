@@ -16,10 +16,17 @@ ROOT = pathlib.Path(__file__).parents[2]
 NAMES = {"kontur": kontur, "np": numpy}
 
 
+def public():
+    """What `kontur` and `kontur.stages` give, with its name."""
+    for module in (kontur, kontur.stages):
+        for name in module.__all__:
+            yield name, getattr(module, name)
+
+
 def documented():
     yield "kontur", kontur
-    for name in kontur.__all__:
-        value = getattr(kontur, name)
+    yield "kontur.stages", kontur.stages
+    for name, value in public():
         yield name, value
         if isinstance(value, type):
             for member, inner in vars(value).items():
@@ -36,9 +43,8 @@ def test_docstrings_are_there_and_their_examples_run(name, value):
     assert doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test).failed == 0
 
 
-@pytest.mark.parametrize("name", [name for name in kontur.__all__ if not isinstance(getattr(kontur, name), type)])
-def test_signatures_can_be_inspected_and_their_parameters_are_described(name):
-    function = getattr(kontur, name)
+@pytest.mark.parametrize("name, function", [(name, value) for name, value in public() if not isinstance(value, type)])
+def test_signatures_can_be_inspected_and_their_parameters_are_described(name, function):
     parameters = inspect.signature(function).parameters
     text = inspect.getdoc(function)
     if "Parameters\n-----" in text:

@@ -32,7 +32,7 @@ def test_contours_come_back(tmp_path, case):
     assert kontur.read_contours(tmp_path / "a.json") == kontur.read_contour_json(tmp_path / "a.json") == case.contours
     assert len(kontur.read_planes_json(tmp_path / "a.json")) == 6
     kontur.write_contours(tmp_path / "a.mrk.json", case.contours)
-    curves = kontur.read_markups(tmp_path / "a.mrk.json", plane_tolerance_mm=0.01)
+    curves = kontur.read_contours(tmp_path / "a.mrk.json", plane_tolerance_mm=0.01)
     assert curves.point_count == case.contours.point_count
     told = kontur.ContourSet(
         case.contours.contours, "kidney",

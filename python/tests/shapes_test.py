@@ -219,13 +219,13 @@ def test_an_array_with_masked_entries_is_refused(oblique):
         (1, lambda: kontur.Plane(square[1], [0, 0, 1])),
         (1, lambda: kontur.Plane([0, 0, numpy.ma.masked], [0, 0, 1])),
         (4, lambda: kontur.TriangleMesh(square, [])),
-        (2, lambda: kontur.ConstraintSet(numpy.eye(3), numpy.ma.masked_equal([0, 1, 0], 0))),
-        (2, lambda: kontur.ConstraintSet(numpy.eye(3), numpy.ones(3), trust=numpy.ma.masked_equal([0, 1, 0], 0))),
+        (2, lambda: kontur.stages.ConstraintSet(numpy.eye(3), numpy.ma.masked_equal([0, 1, 0], 0))),
+        (2, lambda: kontur.stages.ConstraintSet(numpy.eye(3), numpy.ones(3), trust=numpy.ma.masked_equal([0, 1, 0], 0))),
         (3, lambda: kontur.ImplicitFunction("biharmonic", [0, 0, 0], 1, numpy.eye(3), numpy.ma.masked_equal(numpy.ones(3), 1), [1, 0, 0, 0])),
         (3, lambda: kontur.ImplicitFunction("biharmonic", [0, 0, 0], 1, numpy.eye(3), numpy.ones(3), numpy.ma.masked_equal([1, 0, 0, 0], 0))),
         (1, lambda: kontur.Grid.from_spacing((1, 1, 1), numpy.ma.masked_equal([1, 2, 3], 2))),
         (12, lambda: kontur.Grid((1, 1, 1), numpy.ma.masked_equal(numpy.eye(4), 0), frame="LPS")),
-        (9, lambda: kontur.EdgeMap(numpy.ma.masked_equal(numpy.ones((3, 3)), 1))),
+        (9, lambda: kontur.stages.EdgeMap(numpy.ma.masked_equal(numpy.ones((3, 3)), 1))),
         (1, lambda: kontur.encode_png(numpy.ma.masked_equal(numpy.arange(12).reshape(2, 2, 3), 5))),
     ]
     for count, call in calls:
@@ -300,7 +300,7 @@ def test_no_array_changes_its_numbers_on_the_way_in(tmp_path):
             kontur.write_png(tmp_path / "picture.png", numpy.full((4, 4, 3), pixels))
     kontur.write_png(tmp_path / "picture.png", numpy.full((4, 4, 3), 255))
     with pytest.raises(kontur.InvalidInputError, match="the value 1099511627776"):
-        kontur.smooth_path(kontur.EdgeMap(numpy.eye(9)), numpy.full((3, 2), 2**40))
+        kontur.stages.smooth_path(kontur.stages.EdgeMap(numpy.eye(9)), numpy.full((3, 2), 2**40))
     for triangles in ([[0, 1, 1.9]], [[0, 1, 2**63]]):
         with pytest.raises(kontur.InvalidInputError):
             kontur.TriangleMesh(numpy.eye(3), triangles)

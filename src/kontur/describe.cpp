@@ -199,7 +199,7 @@ EvidenceFacts evidence_facts(const SegmentReport& report, const Grid& grid) {
             .voxel_mm = std::min({spacing.x, spacing.y, spacing.z}),
             .residual_mm = report.residual.rms_mm,
             .disagreement_mm = trusted_disagreement_mm(disagreement(report.crossings)),
-            .asked = report.image.asked};
+            .shares = report.image.shares};
 }
 
 Provenance provenance(const ContourSet& contours, const Grid& grid, const SegmentReport& report) {

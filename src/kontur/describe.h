@@ -3,9 +3,9 @@
 
 #include "kontur/base/work.h"
 #include "kontur/extract/track.h"
+#include "kontur/pipeline.h"
 #include "kontur/segment_report.h"
 #include "kontur/shape/volume.h"
-#include "kontur/stages.h"
 #include "kontur/sureness/surface_evidence.h"
 
 namespace kontur {

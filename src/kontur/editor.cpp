@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/extract/preview.h"
+#include "kontur/extract/surface_band.h"
+#include "kontur/image/image_memory.h"
+#include "kontur/image/part_fits.h"
+#include "kontur/pipeline.h"
 #include "kontur/shape/section.h"
-#include "kontur/stages.h"
 
 namespace kontur {
 namespace {
@@ -62,11 +66,11 @@ double narrowest_mm(const Drawing& drawing) {
 }
 
 /// Lets the fit pass the places at which the image showed the surface before; returns how many there are.
-std::size_t follow_image(PreparedContours& prepared, const AskedBefore& asked, const ContourSet& edited, double noise_mm) {
-    const std::vector<Vec3> shown = asked.still_shown(edited);
-    for (const Vec3& place : shown)
+std::size_t follow_memory(PreparedContours& prepared, const ImageMemory& memory, const ContourSet& edited, double noise_mm) {
+    const std::vector<Vec3> places = memory.places_in(edited);
+    for (const Vec3& place : places)
         prepared.bounds.push_back({.position = place, .least_mm = 0, .most_mm = 0, .noise_mm = noise_mm});
-    return shown.size();
+    return places.size();
 }
 
 std::vector<FoundSide> sides_of(const Drawing& drawing) {
@@ -85,37 +89,36 @@ EditedSurface surface_of(const FittedFunction& fit, std::span<const Vec3> starts
     return surface;
 }
 
-}  // namespace
+/// Points of a contour, as the fit has them, and the cosines of the surface's tilts there.
+struct TiltedLine {
+    std::vector<Vec3> positions;
+    std::vector<double> slopes;
 
-Editor::Editor(EditorOptions options) : options_(options) {
-    check_not_below_0("the preview's spacing", options_.preview_spacing_mm, " mm");
-    check_not_below_0("the finished surface's spacing", options_.finished_spacing_mm, " mm");
-    if (options_.preview_points < 1)
-        throw Error(ErrorKind::invalid_input, "the preview is fitted to 0 points; at least 1 is needed");
-}
+    /// Of the point that lies nearest to a place, if it is near: mostly that of number `n`.
+    std::optional<double> slope_near(const Vec3& place, std::size_t n, double near_mm) const {
+        if (n < positions.size() && positions[n] == place) return slopes[n];
+        const auto squared = [&](const Vec3& p) { return dot(p - place, p - place); };
+        const auto nearest = std::min_element(positions.begin(), positions.end(),
+                                              [&](const Vec3& a, const Vec3& b) { return squared(a) < squared(b); });
+        if (nearest == positions.end() || squared(*nearest) > near_mm * near_mm) return std::nullopt;
+        return slopes[static_cast<std::size_t>(nearest - positions.begin())];
+    }
+};
 
-double Editor::finished_spacing(const Drawing& drawing) const {
-    if (options_.finished_spacing_mm > 0) return options_.finished_spacing_mm;
-    const double usual = kSpacingFraction * drawing.diameter_mm();
-    return std::clamp(narrowest_mm(drawing) / kStepsAcross, kLeastSpacing * usual, usual);
-}
+/// A contour of the last fit and its points there.
+struct FittedLine {
+    Contour contour;
+    TiltedLine line;
+};
 
-double Editor::preview_spacing(const Drawing& drawing) const {
-    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kPreviewSteps * finished_spacing(drawing);
-}
+/// Cosines of the surface's tilts at prepared points.
+struct Tilts {
+    std::vector<double> slopes;  ///< 1 where nothing is known
+    bool any, all;               ///< whether something is known, and whether everything is
+};
 
-/// Of the point that lies nearest to a place, if it is near: mostly that of number `n`.
-std::optional<double> Editor::TiltedLine::slope_near(const Vec3& place, std::size_t n, double near_mm) const {
-    if (n < positions.size() && positions[n] == place) return slopes[n];
-    const auto squared = [&](const Vec3& p) { return dot(p - place, p - place); };
-    const auto nearest = std::min_element(positions.begin(), positions.end(),
-                                          [&](const Vec3& a, const Vec3& b) { return squared(a) < squared(b); });
-    if (nearest == positions.end() || squared(*nearest) > near_mm * near_mm) return std::nullopt;
-    return slopes[static_cast<std::size_t>(nearest - positions.begin())];
-}
-
-std::vector<Editor::TiltedLine> Editor::tilted_lines(const PreparedContours& prepared, const std::vector<double>& slopes,
-                                                     std::size_t contours) {
+std::vector<TiltedLine> tilted_lines(const PreparedContours& prepared, const std::vector<double>& slopes,
+                                     std::size_t contours) {
     std::vector<TiltedLine> lines(contours);
     for (std::size_t i = 0; i < prepared.points.size(); ++i) {
         if (prepared.points[i].contour == kNoContour) continue;
@@ -126,80 +129,123 @@ std::vector<Editor::TiltedLine> Editor::tilted_lines(const PreparedContours& pre
     return lines;
 }
 
-/// What is known of the contour, or of the one that it was before it was bent or moved in its plane; null: nothing.
-const Editor::Known* Editor::known_of(const ContourSet& contours, std::size_t index) const {
-    const Contour& contour = contours.contours[index];
-    const auto same =
-        std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return same_drawing(k.contour, contour); });
-    if (same != known_.end()) return &*same;
-    if (known_.size() != contours.contours.size()) return nullptr;
-    const Known& before = known_[index];
-    const bool is_edited =
-        before.contour.closed == contour.closed && dot(before.contour.plane.normal, contour.plane.normal) > kSameDirection;
-    return is_edited ? &before : nullptr;
-}
-
-Editor::KnownTilts Editor::known_tilts(const ContourSet& contours, const PreparedContours& prepared) const {
-    const double near_mm = kEditedBy * prepared.ball.diameter();
-    std::vector<const Known*> known;
-    for (std::size_t c = 0; c < contours.contours.size(); ++c) known.push_back(known_of(contours, c));
-    std::vector<std::size_t> used(known.size(), 0);
-    KnownTilts tilts{std::vector<double>(prepared.points.size(), 1.0), false, known_.size() == known.size()};
-    for (std::size_t i = 0; i < prepared.points.size(); ++i) {
-        if (prepared.points[i].contour == kNoContour) continue;
-        const auto c = static_cast<std::size_t>(prepared.points[i].contour);
-        const std::optional<double> slope =
-            known[c] ? known[c]->line.slope_near(prepared.points[i].position, used[c]++, near_mm) : std::nullopt;
-        tilts.slopes[i] = slope.value_or(1.0);
-        tilts.any = tilts.any || slope;
-        tilts.all = tilts.all && slope;
+/// What the editor takes over from the last fit of a preview.
+class FitMemory {
+public:
+    Tilts tilts(const ContourSet& contours, const PreparedContours& prepared) const {
+        const double near_mm = kEditedBy * prepared.ball.diameter();
+        std::vector<const FittedLine*> earlier;
+        for (std::size_t c = 0; c < contours.contours.size(); ++c) earlier.push_back(line_of(contours, c));
+        std::vector<std::size_t> used(earlier.size(), 0);
+        Tilts tilts{std::vector<double>(prepared.points.size(), 1.0), false, lines_.size() == earlier.size()};
+        for (std::size_t i = 0; i < prepared.points.size(); ++i) {
+            if (prepared.points[i].contour == kNoContour) continue;
+            const auto c = static_cast<std::size_t>(prepared.points[i].contour);
+            const std::optional<double> slope =
+                earlier[c] ? earlier[c]->line.slope_near(prepared.points[i].position, used[c]++, near_mm) : std::nullopt;
+            tilts.slopes[i] = slope.value_or(1.0);
+            tilts.any = tilts.any || slope;
+            tilts.all = tilts.all && slope;
+        }
+        return tilts;
     }
-    return tilts;
-}
 
-/// The bounds that lie where the last fit leaned on one, as well as that is known: they move a little with what is drawn.
-std::vector<std::size_t> Editor::held_before(const std::vector<Bound>& bounds) const {
-    std::vector<std::size_t> found;
-    for (const Vec3& place : held_) {
-        const auto squared = [&](const Bound& bound) { return dot(bound.position - place, bound.position - place); };
-        const auto nearest = std::ranges::min_element(bounds, {}, squared);
-        if (nearest != bounds.end() && std::sqrt(squared(*nearest)) <= nearest->noise_mm)
-            found.push_back(static_cast<std::size_t>(nearest - bounds.begin()));
+    /// The bounds that lie where the last fit leaned on one, as well as that is known: they move a little with what is
+    /// drawn.
+    std::vector<std::size_t> active_bounds(const std::vector<Bound>& bounds) const {
+        std::vector<std::size_t> found;
+        for (const Vec3& place : active_bounds_) {
+            const auto squared = [&](const Bound& bound) { return dot(bound.position - place, bound.position - place); };
+            const auto nearest = std::ranges::min_element(bounds, {}, squared);
+            if (nearest != bounds.end() && std::sqrt(squared(*nearest)) <= nearest->noise_mm)
+                found.push_back(static_cast<std::size_t>(nearest - bounds.begin()));
+        }
+        return found;
     }
-    return found;
+
+    void remember(const ContourSet& contours, const PreparedContours& prepared, const FittedFunction& fitted) {
+        std::vector<TiltedLine> lines = tilted_lines(prepared, fitted.slopes, contours.contours.size());
+        lines_.clear();
+        active_bounds_.clear();
+        for (const PointConstraint& bound : fitted.held) active_bounds_.push_back(bound.position);
+        for (std::size_t c = 0; c < lines.size(); ++c) lines_.push_back({contours.contours[c], std::move(lines[c])});
+    }
+
+private:
+    /// That of the contour, or of the one that it was before it was bent or moved in its plane; null: nothing.
+    const FittedLine* line_of(const ContourSet& contours, std::size_t index) const {
+        const Contour& contour = contours.contours[index];
+        const auto same = std::find_if(lines_.begin(), lines_.end(),
+                                       [&](const FittedLine& line) { return same_drawing(line.contour, contour); });
+        if (same != lines_.end()) return &*same;
+        if (lines_.size() != contours.contours.size()) return nullptr;
+        const FittedLine& before = lines_[index];
+        const bool is_edited = before.contour.closed == contour.closed &&
+                               dot(before.contour.plane.normal, contour.plane.normal) > kSameDirection;
+        return is_edited ? &before : nullptr;
+    }
+
+    std::vector<FittedLine> lines_;
+    std::vector<Vec3> active_bounds_;  ///< that the last fit leaned on
+};
+
+double finished_spacing(const EditorOptions& options, const Drawing& drawing) {
+    if (options.finished_spacing_mm > 0) return options.finished_spacing_mm;
+    const double usual = kSpacingFraction * drawing.diameter_mm();
+    return std::clamp(narrowest_mm(drawing) / kStepsAcross, kLeastSpacing * usual, usual);
 }
 
-void Editor::remember(const ContourSet& contours, const PreparedContours& prepared, const FittedFunction& fitted) {
-    std::vector<TiltedLine> lines = tilted_lines(prepared, fitted.slopes, contours.contours.size());
-    known_.clear();
-    held_.clear();
-    for (const PointConstraint& one : fitted.held) held_.push_back(one.position);
-    for (std::size_t c = 0; c < lines.size(); ++c) known_.push_back({contours.contours[c], std::move(lines[c])});
+double preview_spacing(const EditorOptions& options, const Drawing& drawing) {
+    return options.preview_spacing_mm > 0 ? options.preview_spacing_mm : kPreviewSteps * finished_spacing(options, drawing);
 }
+
+}  // namespace
+
+struct Editor::State {
+    EditorOptions options;
+    FitMemory fit_memory;
+    int tilt_reuses = 0;  ///< how many previews in a row found no tilts anew
+    std::optional<ImageMemory> image_memory;
+    PartFits part_fits;
+
+    explicit State(EditorOptions all) : options(std::move(all)) {}
+};
+
+Editor::Editor(EditorOptions options) : state_(std::make_unique<State>(std::move(options))) {
+    check_not_below_0("the preview's spacing", state_->options.preview_spacing_mm, " mm");
+    check_not_below_0("the finished surface's spacing", state_->options.finished_spacing_mm, " mm");
+    if (state_->options.preview_points < 1)
+        throw Error(ErrorKind::invalid_input, "the preview is fitted to 0 points; at least 1 is needed");
+}
+
+Editor::~Editor() = default;
+Editor::Editor(Editor&&) noexcept = default;
+Editor& Editor::operator=(Editor&&) noexcept = default;
 
 EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
                               const std::function<void(const SurfaceBand&)>& ahead) {
     if (drawn.contours.empty()) return {};
+    const EditorOptions& options = state_->options;
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
-    const Drawing drawing =
-        read_drawing(thinned(drawn, kPreviewLines * options_.preview_points), options_.segment.fill_rule);
-    StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
+    const Drawing drawing = read_drawing(thinned(drawn, kPreviewLines * options.preview_points), options.segment.fill_rule);
+    StageOptions stages = stage_options(options.segment, drawing.diameter_mm());
     PreparedContours prepared = prepare(drawing, stages, work);
-    const double spacing_mm = preview_spacing(drawing);
-    std::size_t shown = 0;
-    if (asked_) shown = follow_image(prepared, *asked_, drawn, kShownNoise * spacing_mm);
+    const double spacing_mm = preview_spacing(options, drawing);
+    std::size_t earlier_places = 0;
+    if (state_->image_memory)
+        earlier_places = follow_memory(prepared, *state_->image_memory, drawn, kShownNoise * spacing_mm);
     watch.lap("prepare");
-    stages.fit.most_points = options_.preview_points;
-    stages.fit.tilt_points = options_.preview_points;
+    stages.fit.most_points = options.preview_points;
+    stages.fit.tilt_points = options.preview_points;
     stages.fit.solve.tolerance_mm *= kPreviewTolerance;
     stages.fit.early_tolerance_factor = 2;
-    KnownTilts known = known_tilts(drawing.contours, prepared);
-    if (known.any) stages.fit.start_slopes = std::move(known.slopes);
-    if (known.any) {  // the last round is enough, or none
+    Tilts tilts = state_->fit_memory.tilts(drawing.contours, prepared);
+    if (tilts.any) stages.fit.start_slopes = std::move(tilts.slopes);
+    if (tilts.any) {  // the last round is enough, or none
         stages.fit.start_smoothing *= std::pow(stages.fit.smoothing_factor, stages.fit.rounds - 1);
-        stages.fit.rounds = known.all && reused_ < kMostReuses ? 0 : 1;
-        stages.fit.start_held = held_before(prepared.bounds);
+        stages.fit.rounds = tilts.all && state_->tilt_reuses < kMostReuses ? 0 : 1;
+        stages.fit.start_held = state_->fit_memory.active_bounds(prepared.bounds);
     }
     const FittedFunction fitted = fit(prepared, stages.fit, work);
     watch.lap("fit");
@@ -212,14 +258,14 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     surface.sides = sides_of(drawing);
     surface.near_lines = drawing.near_lines;
     surface.seconds = std::move(seconds);
-    surface.shown_before = shown;
-    reused_ = stages.fit.rounds == 0 ? reused_ + 1 : 0;
-    remember(drawing.contours, prepared, fitted);
+    surface.earlier_places = earlier_places;
+    state_->tilt_reuses = stages.fit.rounds == 0 ? state_->tilt_reuses + 1 : 0;
+    state_->fit_memory.remember(drawing.contours, prepared, fitted);
     return surface;
 }
 
 EditedSurface Editor::finish(const ContourSet& drawn, const Work& work) const {
-    return Editor(options_).finish(drawn, nullptr, work);
+    return Editor(state_->options).finish(drawn, nullptr, work);
 }
 
 EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const Work& work,
@@ -229,10 +275,11 @@ EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const 
         nothing.finished = true;
         return nothing;
     }
-    const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
-    const StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
+    const EditorOptions& options = state_->options;
+    const Drawing drawing = read_drawing(drawn, options.segment.fill_rule);
+    const StageOptions stages = stage_options(options.segment, drawing.diameter_mm());
     const PreparedContours prepared = prepare(drawing, stages, work);
-    const double spacing_mm = finished_spacing(drawing);
+    const double spacing_mm = finished_spacing(options, drawing);
     const auto finished_surface = [&](const FittedFunction& fitted) {
         EditedSurface surface =
             surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm),
@@ -244,17 +291,17 @@ EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const 
         surface.near_lines = drawing.near_lines;
         return surface;
     };
-    const bool asks = image && options_.segment.use_image != UseImage::off;
+    const bool asks = image && options.segment.use_image != UseImage::off;
     if (!asks) forget_image();
-    if (alone && asked_) {
+    if (alone && state_->image_memory) {
         PreparedContours followed = prepared;
-        const std::size_t shown = follow_image(followed, *asked_, drawn, kShownNoise * spacing_mm);
+        const std::size_t places = follow_memory(followed, *state_->image_memory, drawn, kShownNoise * spacing_mm);
         FitOptions once = stages.fit;
         once.most_solves = 1;
         once.most_points = kFollowedPoints;
-        if (shown > 0) {
+        if (places > 0) {
             EditedSurface surface = finished_surface(fit(followed, once, work));
-            surface.shown_before = shown;
+            surface.earlier_places = places;
             alone(surface);
         }
     }
@@ -262,17 +309,21 @@ EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const 
     EditedSurface surface = finished_surface(by_contours);
     if (!asks) return surface;
     if (alone) alone(surface);
-    fits_->begin_question();
-    ImageFit with_image = follow_image(drawing, prepared, by_contours, *image, stages, work, fits_.get());
+    state_->part_fits.begin_question();
+    ImageFit with_image = follow_image(drawing, prepared, by_contours, *image, stages, work, &state_->part_fits);
     if (with_image.report.verdict == ImageVerdict::used) surface = finished_surface(with_image.fitted);
     surface.image = std::move(with_image.report);
     follow_image_of(drawn, surface.image);
     return surface;
 }
 
-void Editor::follow_image_of(const ContourSet& drawn, const ImageReport& said) {
+void Editor::follow_image_of(const ContourSet& drawn, const ImageReport& report) {
     forget_image();
-    if (!said.asked.empty()) asked_.emplace(drawn, said.asked);
+    if (!report.shares.empty()) state_->image_memory.emplace(drawn, report.shares);
 }
+
+void Editor::forget_image() { state_->image_memory.reset(); }
+
+const EditorOptions& Editor::options() const { return state_->options; }
 
 }  // namespace kontur

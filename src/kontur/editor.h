@@ -3,22 +3,24 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "kontur/base/work.h"
-#include "kontur/drawing/drawing.h"
-#include "kontur/extract/surface_band.h"
-#include "kontur/fit/prepare.h"
+#include "kontur/drawing/found_side.h"
 #include "kontur/fit/residual.h"
-#include "kontur/image/asked_before.h"
-#include "kontur/image/kept_fits.h"
+#include "kontur/function/implicit_function.h"
+#include "kontur/image/image_report.h"
 #include "kontur/segment_options.h"
+#include "kontur/shape/contour.h"
+#include "kontur/shape/mesh.h"
+#include "kontur/shape/near_lines.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
+
+class SurfaceBand;
 
 struct EditorOptions {
     SegmentOptions segment;             ///< how the contours are fitted; `voxelizer` and `mesh` do not matter
@@ -39,9 +41,8 @@ struct EditedSurface {
     std::vector<NearLines> near_lines{};  ///< of one plane, numbered as they came
     int solves = 0;                       ///< how often a linear system was solved for it
     ImageReport image{};                  ///< what became of the image; finished surfaces only
-    std::size_t shown_before = 0;  ///< places at which it follows what the image said before the edit: of previews, and of
-                                   ///< what is told while the image is asked again
-
+    std::size_t earlier_places = 0;       ///< at which it follows what the image said before the edit: of previews, and of
+                                          ///< surfaces that bridge the time until the image has answered again
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order; previews only
 };
 
@@ -62,60 +63,31 @@ class Editor {
 public:
     /// Throws Error(invalid_input) for a spacing that is not finite or below 0 and for a preview of no points.
     explicit Editor(EditorOptions options = {});
+    ~Editor();
+    Editor(Editor&&) noexcept;
+    Editor& operator=(Editor&&) noexcept;
 
     /// Throws Error as check_contours and solve do; then the edit before stays the last one. A set without contours gives an
-    /// empty surface.
-    /// `ahead` is told as soon as the surface can be cut by planes, halfway to the mesh; not without contours.
+    /// empty surface. `ahead` gets a band that planes can cut, halfway to the mesh; not without contours.
     EditedSurface preview(const ContourSet& contours, const Work& work = {},
                           const std::function<void(const SurfaceBand&)>& ahead = {});
     EditedSurface finish(const ContourSet& contours, const Work& work = {}) const;
-    /// With an image, which has to stay until the call returns. Where it is to be asked, `alone` is told first what the
+    /// With an image, which has to stay until the call returns. Where it is to be asked, `alone` gets first what the
     /// contours alone make, which stays the result where the image does not help; and before that, where the image has been
     /// asked about an earlier drawing, what some 3,000 of the drawn points make with what it said then. Throws as
     /// `follow_image`, too.
     EditedSurface finish(const ContourSet& contours, const Image* image, const Work& work = {},
                          const std::function<void(const EditedSurface&)>& alone = {});
-    /// Previews follow what an image said of these contours, as it was told when they were finished.
-    void follow_image_of(const ContourSet& contours, const ImageReport& said);
+    /// Previews follow what an image said of these contours, as the report of their finished surface has it.
+    void follow_image_of(const ContourSet& contours, const ImageReport& report);
     /// Previews no longer follow what an image said: it is another one now, or none.
-    void forget_image() { asked_.reset(); }
+    void forget_image();
 
-    const EditorOptions& options() const { return options_; }
+    const EditorOptions& options() const;
 
 private:
-    /// Points of a contour, as the fit has them, and the cosines of the surface's tilts there.
-    struct TiltedLine {
-        std::vector<Vec3> positions;
-        std::vector<double> slopes;
-
-        std::optional<double> slope_near(const Vec3& place, std::size_t n, double near_mm) const;
-    };
-    /// What the last fit says of a contour.
-    struct Known {
-        Contour contour;
-        TiltedLine line;
-    };
-    /// Cosines of the surface's tilts at prepared points.
-    struct KnownTilts {
-        std::vector<double> slopes;  ///< 1 where nothing is known
-        bool any, all;               ///< whether something is known, and whether everything is
-    };
-
-    const Known* known_of(const ContourSet& contours, std::size_t index) const;
-    KnownTilts known_tilts(const ContourSet& contours, const PreparedContours& prepared) const;
-    static std::vector<TiltedLine> tilted_lines(const PreparedContours& prepared, const std::vector<double>& slopes,
-                                                std::size_t contours);
-    std::vector<std::size_t> held_before(const std::vector<Bound>& bounds) const;
-    void remember(const ContourSet& contours, const PreparedContours& prepared, const FittedFunction& fitted);
-    double preview_spacing(const Drawing& drawing) const;
-    double finished_spacing(const Drawing& drawing) const;
-
-    EditorOptions options_;
-    std::vector<Known> known_;
-    std::vector<Vec3> held_;  ///< places of bounds that the last fit leaned on
-    int reused_ = 0;          ///< how many previews in a row found no tilts anew
-    std::optional<AskedBefore> asked_;
-    std::shared_ptr<KeptFits> fits_ = std::make_shared<KeptFits>();
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 }  // namespace kontur

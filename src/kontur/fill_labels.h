@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kontur/base/work.h"
-#include "kontur/image/follow_image.h"
+#include "kontur/image/image_report.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {

@@ -12,6 +12,8 @@
 
 namespace kontur {
 
+class SurfaceBand;
+
 /// What a LiveEditor has to say about an edit.
 struct EditorUpdate {
     enum class Kind {
@@ -25,7 +27,7 @@ struct EditorUpdate {
     std::uint64_t edit = 0;  ///< which edit this answers
     EditedSurface surface;
     /// Of a finished one: `with_image` follows, unless there is another edit. Where the image has been asked before, the
-    /// first such one follows what it said then (`surface.shown_before`), and the second is what the contours make alone.
+    /// first such one follows what it said then (`surface.earlier_places`), and the second is what the contours make alone.
     bool asks_image = false;
     std::string problem;
     std::string_view stage;

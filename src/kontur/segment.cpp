@@ -8,7 +8,8 @@
 #include "kontur/extract/find_surface.h"
 #include "kontur/extract/mesh_grid.h"
 #include "kontur/memory_estimate.h"
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
+#include "kontur/sampling/sample_surface.h"
 
 namespace kontur {
 
@@ -50,15 +51,12 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
 
     result.report = describe({drawing, stages, prepared, fitted, image_report, surface, result.mask}, options, work);
     result.samples = sample_surface(surface, fitted.function, kSurfaceSamples, work);
-    result.report.uncertainty = surface_uncertainty(gather_evidence(result, drawing.contours, work));
+    result.report.uncertainty =
+        surface_uncertainty(gather_evidence(result.samples, drawing.contours, evidence_facts(result.report, grid), work));
     watch.lap("measure");
     result.report.estimated_memory_mb = memory_mb;
     result.report.seconds = std::move(seconds);
     return result;
-}
-
-SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, const Work& work) {
-    return gather_evidence(made.samples, contours, evidence_facts(made.report, made.mask.grid), work);
 }
 
 }  // namespace kontur

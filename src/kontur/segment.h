@@ -5,12 +5,12 @@
 
 #include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
+#include "kontur/sampling/surface_samples.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/volume.h"
-#include "kontur/sureness/surface_evidence.h"
 
 namespace kontur {
 
@@ -30,8 +30,5 @@ Segmentation segment(const ContourSet& contours, const Grid& grid, const Segment
                      const Work& work = {});
 Segmentation segment(const ContourSet& contours, const Grid& grid, const Image* image, const SegmentOptions& options = {},
                      const Work& work = {});
-
-/// For suggest_planes and half_widths_mm: what is known of the surface from the `contours` that it was made from.
-SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, const Work& work = {});
 
 }  // namespace kontur

@@ -3,12 +3,14 @@
 
 #include <optional>
 
+#include "kontur/drawing/conflicts.h"
 #include "kontur/drawing/corners.h"
-#include "kontur/drawing/reconcile.h"
-#include "kontur/extract/voxelize.h"
-#include "kontur/fit/fit.h"
-#include "kontur/image/follow_image.h"
+#include "kontur/extract/voxelizer.h"
+#include "kontur/fit/normals.h"
+#include "kontur/function/kernel.h"
+#include "kontur/image/image_report.h"
 #include "kontur/shape/fill_rule.h"
+#include "kontur/solve/solver.h"
 
 namespace kontur {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kontur/fit/residual.h"
-#include "kontur/image/follow_image.h"
+#include "kontur/image/image_report.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/crossings.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kontur/base/work.h"
-#include "kontur/labels/label_boxes.h"
+#include "kontur/labels/index_box.h"
 #include "kontur/labels/shared_surface.h"
 #include "kontur/labels/structure_pair.h"
 #include "kontur/segment.h"

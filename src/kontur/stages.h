@@ -1,54 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+// The stages of `segment`, each to be called by itself, and the tools beside them. UNSTABLE: names, options and results of
+// these follow the method and change with it in any version; kontur.h does not.
 
-#include "kontur/base/work.h"
+// What the lines say.
+#include "kontur/drawing/corners.h"
 #include "kontur/drawing/drawing.h"
+#include "kontur/drawing/orient.h"
 #include "kontur/drawing/reconcile.h"
+#include "kontur/drawing/reduce.h"
+#include "kontur/drawing/subdivide.h"
+#include "kontur/shape/apply_fill_rule.h"
+#include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/crossings.h"
+#include "kontur/shape/self_contacts.h"
+
+// Lines become a function.
 #include "kontur/fit/fit.h"
 #include "kontur/fit/prepare.h"
+#include "kontur/fit/residual.h"
+#include "kontur/function/fast_function.h"
 #include "kontur/image/follow_image.h"
-#include "kontur/image/kept_fits.h"
-#include "kontur/segment_options.h"
+#include "kontur/solve/constraint_set.h"
+#include "kontur/solve/solve.h"
 
-namespace kontur {
+// The function becomes voxels, triangles or lines.
+#include "kontur/extract/adaptive.h"
+#include "kontur/extract/polygonize.h"
+#include "kontur/extract/preview.h"
+#include "kontur/extract/rasterize.h"
+#include "kontur/extract/slice_contours.h"
+#include "kontur/extract/surface_band.h"
+#include "kontur/extract/track.h"
+#include "kontur/extract/voxelize.h"
 
-/// The options of `segment` spelled out for its first stages.
-struct StageOptions {
-    PrepareOptions prepare;
-    ReconcileOptions reconcile;
-    FitOptions fit;
-};
-
-/// Lengths that are not given are fractions of the drawing's diameter. Throws Error(invalid_input) when the normal offset is
-/// not above 0.
-StageOptions stage_options(const SegmentOptions& options, double diameter_mm);
-
-/// What was drawn, with the sides of open contours found. Throws as check_contours.
-Drawing read_drawing(const ContourSet& drawn, FillRule rule);
-
-/// The contours as the fit sees them, reconciled where they contradict each other.
-PreparedContours prepare(const Drawing& drawing, const StageOptions& options, const Work& work = {});
-
-/// Every few of each contour's points, about `most` in all, though no fewer than 48 of a contour that has as many: preparing
-/// contours and reading the surface's tilt costs as much as there are points.
-ContourSet thinned(ContourSet set, std::size_t most);
-
-/// f through a part of the contours, from about as many of its points as show the tilts: for how the surface runs between
-/// planes that will do.
-ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options, const Work& work = {});
-
-/// The fit, moved between the contours to where the image shows the border, where it helps; else as it came. Parts of the
-/// drawing that `kept` holds are not fitted again.
-ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                      const Image& image, const StageOptions& options, const Work& work = {}, KeptFits* kept = nullptr);
-
-/// Where the surface is known to pass: every drawn point and point of the fit, each edge of each lobe where contours cross
-/// themselves, a place near each exterior point that only just got its side, for it may have made a cavity, and places
-/// towards which f leads from contours that the surface misses altogether, by `margin_mm` (0: not looked for). Not near
-/// interior points: beside the contours nothing bounds what they make.
-std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,
-                               const ImplicitFunction& function, double margin_mm);
-
-}  // namespace kontur
+// Lines along the edges of an image, and curves through points.
+#include "kontur/shape/spline.h"
+#include "kontur/view/livewire.h"

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "kontur/phantom/cases.h"
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 #include "support/contour_sets.h"
 #include "support/random.h"
 

@@ -22,7 +22,7 @@ def tables():
         for names, table in re.findall(r"^Options of (.+?):\n\n((?:\|.*\n)+)", page.read_text(), re.MULTILINE):
             head, _, *rows = [[cell.strip() for cell in row.strip("|\n").split("|")] for row in table.splitlines()]
             assert head == ["option", "default", "unit", "meaning"], page
-            for name in re.findall(r"`kontur\.(\w+)`", names):
+            for name in re.findall(r"`kontur\.(?:stages\.)?(\w+)`", names):
                 yield name, {row[0].strip("`"): row[1] for row in rows}
 
 
@@ -31,7 +31,7 @@ TABLES = list(tables())
 
 def options(name):
     """The options that the function has: {name: default}."""
-    value = getattr(kontur, name)
+    value = getattr(kontur.stages, name, None) or getattr(kontur, name)
     parameters = inspect.signature(value.__init__ if inspect.isclass(value) else value).parameters.values()
     return {p.name: p.default for p in parameters if p.default is not p.empty and p.name not in SHARED}
 

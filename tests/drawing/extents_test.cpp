@@ -5,7 +5,7 @@
 
 #include "kontur/fit/prepare.h"
 #include "kontur/phantom/cases.h"
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 #include "support/contour_sets.h"
 
 namespace kontur {

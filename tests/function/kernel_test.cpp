@@ -8,6 +8,7 @@
 #include <stop_token>
 
 #include "kontur/function/implicit_function.h"
+#include "kontur/function/kernel_sums.h"
 #include "support/expect_error.h"
 #include "support/random.h"
 

@@ -5,6 +5,8 @@
 
 #include "support/random.h"
 
+#include "kontur/function/screened_kernel.h"
+
 namespace kontur {
 namespace {
 

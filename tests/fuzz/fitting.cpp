@@ -8,8 +8,9 @@
 #include "fuzz/drawings.h"
 #include "kontur/drawing/reconcile.h"
 #include "kontur/editor.h"
+#include "kontur/fit/fit.h"
 #include "kontur/fit/prepare.h"
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 
 namespace kontur::fuzz {
 namespace {

@@ -10,7 +10,8 @@
 #include "fuzz/drawings.h"
 #include "fuzz/targets.h"
 #include "kontur/base/error.h"
-#include "kontur/stages.h"
+#include "kontur/fit/fit.h"
+#include "kontur/pipeline.h"
 #include "support/random.h"
 
 namespace kontur::fuzz {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 #include "support/lobed_body.h"
 
 namespace kontur {

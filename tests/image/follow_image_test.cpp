@@ -118,12 +118,12 @@ TEST(FollowImage, SegmentUsesTheImageUnlessToldNotTo) {
     EXPECT_EQ(without.mask.values, off.mask.values);
     EXPECT_EQ(off.report.image.verdict, ImageVerdict::none);
     EXPECT_EQ(with.report.image.verdict, ImageVerdict::used);
-    EXPECT_TRUE(off.report.image.asked.empty());
-    EXPECT_GT(with.report.image.asked.size(), 100u);
-    for (const AskedPoint& asked : with.report.image.asked) {
-        EXPECT_NEAR(with.function.value(asked.position), 0, 2.0) << "within a voxel";
-        EXPECT_GE(asked.share, 0);
-        EXPECT_LE(asked.share, 1);
+    EXPECT_TRUE(off.report.image.shares.empty());
+    EXPECT_GT(with.report.image.shares.size(), 100u);
+    for (const ImageShare& place : with.report.image.shares) {
+        EXPECT_NEAR(with.function.value(place.position), 0, 2.0) << "within a voxel";
+        EXPECT_GE(place.share, 0);
+        EXPECT_LE(place.share, 1);
     }
     EXPECT_GT(with.report.uncertainty.dice.value, without.report.uncertainty.dice.value);
     EXPECT_NE(without.mask.values, with.mask.values);

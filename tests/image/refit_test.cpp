@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 #include "support/lobed_body.h"
 
 namespace kontur {

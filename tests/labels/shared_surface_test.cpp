@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "kontur/labels/boxed_mask.h"
 #include "kontur/labels/filled_map.h"
 #include "kontur/segment.h"
 #include "support/contour_sets.h"

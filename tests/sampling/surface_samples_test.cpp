@@ -7,6 +7,7 @@
 
 #include "kontur/extract/polygonize.h"
 #include "kontur/extract/track.h"
+#include "kontur/sampling/sample_surface.h"
 #include "support/functions.h"
 
 namespace kontur {

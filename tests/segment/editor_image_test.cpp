@@ -111,8 +111,8 @@ TEST(Editor, PreviewsFollowWhatTheImageSaidUntilItIsAskedAgain) {
     fresh.preview(contours);
     editor.finish(contours, helpful_image().get());
     const EditedSurface with = editor.preview(edited(contours)), without = fresh.preview(edited(contours));
-    EXPECT_EQ(without.shown_before, 0u);
-    EXPECT_GT(with.shown_before, 50u);
+    EXPECT_EQ(without.earlier_places, 0u);
+    EXPECT_GT(with.earlier_places, 50u);
     EXPECT_EQ(with.solves, 1);
     EXPECT_LT(surface_error(with.function, contours), 0.6 * surface_error(without.function, contours));
     for (const Contour& contour : edited(contours).contours)
@@ -122,7 +122,7 @@ TEST(Editor, PreviewsFollowWhatTheImageSaidUntilItIsAskedAgain) {
                          segment(edited(contours), image.grid, &image).function);
     editor.forget_image();
     const EditedSurface after = editor.preview(edited(contours)), alone = fresh.preview(edited(contours));
-    EXPECT_EQ(after.shown_before, 0u);
+    EXPECT_EQ(after.earlier_places, 0u);
     for (const Vec3& p : alone.mesh.points) EXPECT_NEAR(after.function.value(p), alone.function.value(p), 0.05);
 }
 
@@ -131,12 +131,12 @@ TEST(Editor, PreviewsDoNotFollowAnImageThatIsNoLongerAsked) {
     Editor editor;
     editor.preview(contours);
     editor.finish(contours, helpful_image().get());
-    EXPECT_GT(editor.preview(contours).shown_before, 50u);
+    EXPECT_GT(editor.preview(contours).earlier_places, 50u);
     editor.finish(contours, noise_alone().get());
-    EXPECT_EQ(editor.preview(contours).shown_before, 0u);
+    EXPECT_EQ(editor.preview(contours).earlier_places, 0u);
     editor.finish(contours, helpful_image().get());
     editor.finish(contours, nullptr);
-    EXPECT_EQ(editor.preview(contours).shown_before, 0u);
+    EXPECT_EQ(editor.preview(contours).earlier_places, 0u);
 }
 
 TEST(LiveEditor, PreviewsWithAnotherImageDoNotFollowTheOneBefore) {
@@ -151,7 +151,7 @@ TEST(LiveEditor, PreviewsWithAnotherImageDoNotFollowTheOneBefore) {
     answer(contours, noise_alone());
     std::vector<bool> follows;
     for (const EditorUpdate& update : live.updates())
-        if (update.kind == Kind::preview) follows.push_back(update.surface.shown_before > 0);
+        if (update.kind == Kind::preview) follows.push_back(update.surface.earlier_places > 0);
     EXPECT_EQ(follows, (std::vector{false, true, false}));
 }
 
@@ -185,9 +185,9 @@ TEST(LiveEditor, FollowsWhatTheImageSaidWhileItIsAskedAgain) {
                                          Kind::finished, Kind::with_image}));
     const EditorUpdate &followed = updates[4], &alone = updates[5], &made = updates[6];
     EXPECT_TRUE(followed.asks_image);
-    EXPECT_GT(followed.surface.shown_before, 50u);
+    EXPECT_GT(followed.surface.earlier_places, 50u);
     EXPECT_TRUE(alone.asks_image);
-    EXPECT_EQ(alone.surface.shown_before, 0u);
+    EXPECT_EQ(alone.surface.earlier_places, 0u);
     EXPECT_LT(surface_error(followed.surface.function, contours), 0.6 * surface_error(alone.surface.function, contours));
     EXPECT_LT(followed.surface.residual.max_mm, 0.5);
     const Image& image = *helpful_image();
@@ -217,7 +217,7 @@ TEST(Editor, FollowsWhatTheImageSaidByThreeThousandOfManyPoints) {
     std::vector<std::size_t> centres;
     editor.finish(edited(contours), image.get(), {}, [&](const EditedSurface& told) {
         EXPECT_LT(told.residual.rms_mm, 0.3);
-        centres.push_back(told.function.centers().size() - told.shown_before);
+        centres.push_back(told.function.centers().size() - told.earlier_places);
     });
     ASSERT_EQ(centres.size(), 2u);
     EXPECT_LT(centres[0] + 960, centres[1]) << "960 points fewer, and what stands beside them";
@@ -245,7 +245,7 @@ TEST(LiveEditor, AnUndoneEditNeedsNeitherTheImageNorASolve) {
         EXPECT_EQ(undone[n].surface.mesh.points, first[n + 1].surface.mesh.points);
     }
     EXPECT_EQ(sentence(undone[1].surface.image), sentence(first[2].surface.image));
-    EXPECT_GT(answers(edited(edited(contours)), helpful_image()).front().surface.shown_before, 50u);
+    EXPECT_GT(answers(edited(edited(contours)), helpful_image()).front().surface.earlier_places, 50u);
     EXPECT_EQ(answers(contours, nullptr).front().kind, Kind::preview) << "no image is another question";
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "kontur/extract/surface_band.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/phantom/drawing.h"
 #include "kontur/segment.h"

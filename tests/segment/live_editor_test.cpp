@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "kontur/extract/surface_band.h"
 #include "kontur/phantom/cases.h"
 #include "support/contour_sets.h"
 

@@ -8,6 +8,8 @@
 
 #include "support/contour_sets.h"
 
+#include "kontur/shape/apply_fill_rule.h"
+
 namespace kontur {
 namespace {
 

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "kontur/evidence.h"
 #include "kontur/phantom/bodies.h"
 #include "kontur/phantom/drawing.h"
 #include "kontur/segment.h"
+#include "kontur/sureness/surface_evidence.h"
 #include "support/solids.h"
 
 namespace kontur::test {

@@ -9,7 +9,7 @@
 #include "kontur/extract/trace.h"
 #include "kontur/image/follow_image.h"
 #include "kontur/phantom/random.h"
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 
 namespace kontur::test {
 

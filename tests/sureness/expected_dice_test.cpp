@@ -7,6 +7,7 @@
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/phantom/phantom.h"
+#include "kontur/sureness/surface_evidence.h"
 #include "support/coarse_grid.h"
 
 namespace kontur {

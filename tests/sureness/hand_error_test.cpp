@@ -9,8 +9,9 @@
 #include <numbers>
 #include <random>
 
-#include "support/drawn_bodies.h"
+#include "kontur/sureness/surface_evidence.h"
 #include "kontur/sureness/surface_uncertainty.h"
+#include "support/drawn_bodies.h"
 
 namespace kontur {
 namespace {

@@ -7,6 +7,8 @@
 
 #include "support/drawn_bodies.h"
 #include "kontur/phantom/cases.h"
+#include "kontur/sureness/image_shares.h"
+#include "kontur/sureness/surface_evidence.h"
 #include "kontur/sureness/uncertainty_map.h"
 #include "support/coarse_grid.h"
 
@@ -103,9 +105,9 @@ TEST(SurfaceUncertainty, WhatTheImageLeavesNarrowsTheBandToNoLessThanTheDrawings
     SurfaceEvidence evidence = fitted(contours, test::grid_for(egg())).evidence;
     const std::vector<double> without = half_widths_mm(evidence);
     const double dice = expected_dice(evidence).value;
-    std::vector<AskedPoint> asked;
-    for (const Vec3& p : evidence.samples.points) asked.push_back({p, 0.4});
-    evidence.image = ImageShares(asked);
+    std::vector<ImageShare> shares;
+    for (const Vec3& p : evidence.samples.points) shares.push_back({p, 0.4});
+    evidence.image = ImageShares(shares);
     std::fill(evidence.shares.begin(), evidence.shares.end(), 0.4);
     const std::vector<double> with = half_widths_mm(evidence),
                               there = half_widths_mm(evidence, evidence.samples.points, {.threads = 2});

@@ -69,7 +69,7 @@ def test_planted_violation_is_found_at_its_line(tmp_path, file, include):
         ("src/kontur/base/error.h", "<string_view>"),
         ("src/kontur/io/bytes/json_file.h", "<nlohmann/json.hpp>"),
         ("src/kontur/extract/voxelize.h", '"kontur/function/implicit_function.h"'),
-        ("src/kontur/segment.cpp", '"kontur/stages.h"'),
+        ("src/kontur/segment.cpp", '"kontur/pipeline.h"'),
         ("src/kontur/view/picture.cpp", '"kontur/extract/trace.h"'),
         ("src/kontur/kontur.h", '"kontur/io/image.h"'),
         ("apps/kontur/main.cpp", '"kontur/io/image.h"'),

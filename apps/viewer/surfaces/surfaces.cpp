@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "kontur/extract/surface_band.h"
+#include "kontur/sampling/sample_surface.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/view/outline.h"
 
@@ -41,7 +43,7 @@ std::vector<Conflict> conflicts(const SurfaceTask& task, const std::vector<Cross
 }
 
 /// Whether it is what the contours make without anything that an image said.
-bool is_alone(const EditorUpdate& update) { return update.asks_image && update.surface.shown_before == 0; }
+bool is_alone(const EditorUpdate& update) { return update.asks_image && update.surface.earlier_places == 0; }
 
 Surface no_surface(Id structure, std::vector<std::string> warnings = {}) {
     Surface surface;
@@ -79,7 +81,7 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
                         {.volume_mm3 = 1000 * surface.volume_ml,
                          .residual_mm = surface.residual.rms_mm,
                          .disagreement_mm = trusted_disagreement_mm(disagreement(crossings)),
-                         .asked = update.surface.image.asked}));
+                         .shares = update.surface.image.shares}));
     surface.image = update.surface.image;
     surface.drawn = std::make_shared<const ContourSet>(task.set);
     return surface;
@@ -266,7 +268,7 @@ void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update
     if (is_held_back) return;
     if (update.kind == EditorUpdate::Kind::preview) {
         surface.revision = std::exchange(follower.ahead, 0);
-        follower.shows_image = update.surface.shown_before > 0;
+        follower.shows_image = update.surface.earlier_places > 0;
     }
     const bool is_newest = follower.tasks.size() == 1 && !follower.is_outdated;
     // Of contours that have changed meanwhile it is only on the way to their surface.

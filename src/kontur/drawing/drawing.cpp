@@ -11,6 +11,7 @@
 #include "kontur/base/pick.h"
 #include "kontur/drawing/one_line.h"
 #include "kontur/drawing/tidy.h"
+#include "kontur/shape/apply_fill_rule.h"
 #include "kontur/shape/repeated_contours.h"
 
 namespace kontur {

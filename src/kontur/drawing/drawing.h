@@ -6,20 +6,13 @@
 #include <vector>
 
 #include "kontur/base/smallest_ball.h"
+#include "kontur/drawing/found_side.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/shape/fill_rule.h"
+#include "kontur/shape/near_lines.h"
 
 namespace kontur {
-
-/// On which hand of an open contour that does not tell the object was taken to lie.
-struct FoundSide {
-    std::size_t contour = 0;
-    Hand inside = Hand::left;
-    bool is_sure = true;
-
-    friend bool operator==(const FoundSide&, const FoundSide&) = default;
-};
 
 /// What was drawn, without repeated points and with its holes known, and what all stages ask of it, found once.
 struct Drawing {

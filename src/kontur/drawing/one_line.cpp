@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kontur/drawing/subdivide.h"
+#include "kontur/shape/find_near_lines.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "kontur/shape/contour.h"
 #include "kontur/shape/near_lines.h"
 
 namespace kontur {

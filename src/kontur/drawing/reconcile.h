@@ -2,21 +2,13 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "kontur/drawing/boundary_point.h"
+#include "kontur/drawing/conflicts.h"
 #include "kontur/shape/crossings.h"
 
 namespace kontur {
-
-/// What happens where contours of different planes contradict each other.
-enum class Conflicts {
-    reconcile,    ///< both yield
-    newest_wins,  ///< the one that comes first in the set yields
-    exact,        ///< neither yields; where they contradict each other the surface may bulge
-};
-std::string_view name(Conflicts conflicts) noexcept;
 
 struct ReconcileOptions {
     Conflicts conflicts = Conflicts::reconcile;

@@ -3,16 +3,10 @@
 
 #include "kontur/base/work.h"
 #include "kontur/extract/track.h"
+#include "kontur/extract/voxelizer.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
-
-enum class Voxelizer {
-    adaptive,    ///< follow the surface from the contours on a coarse lattice, look finer where the sign is in doubt, fill
-    tracked,     ///< follow the surface from the contours voxel by voxel, fill: the paper's
-    exhaustive,  ///< evaluate every voxel: the oracle; keeps sheets and bubbles that no contour touches
-};
-std::string_view name(Voxelizer voxelizer) noexcept;
 
 /// The voxels inside of the surface found: those at whose centre the function is > 0, except that a sheet or bubble that no
 /// search met counts as absent. Every row starts outside and changes sides where the surface cuts it, so f is not evaluated

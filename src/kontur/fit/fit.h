@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string_view>
+#include <vector>
 
 #include "kontur/base/work.h"
 #include "kontur/fit/constraints.h"
+#include "kontur/fit/normals.h"
 #include "kontur/fit/prepare.h"
 #include "kontur/solve/solve.h"
 
 namespace kontur {
-
-/// What the normal constraints know of the surface's direction.
-enum class Normals {
-    surface,   ///< its tilt against each contour's plane, found from all contours together
-    in_plane,  ///< only what each contour shows (Eq. 7): the paper's; leaks where contours of different planes cross
-};
-std::string_view name(Normals normals) noexcept;
 
 struct FitOptions {
     Normals normals = Normals::surface;

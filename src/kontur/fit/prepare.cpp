@@ -23,6 +23,7 @@
 #include "kontur/drawing/reduce.h"
 #include "kontur/drawing/ring_starts.h"
 #include "kontur/drawing/subdivide.h"
+#include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
 namespace {

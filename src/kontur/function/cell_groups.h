@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kontur/function/kernel.h"
+#include "kontur/function/point_arrays.h"
 #include "kontur/function/split_kernel.h"
 
 namespace kontur {

@@ -9,6 +9,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
 #include "kontur/base/smallest_ball.h"
+#include "kontur/function/kernel_sums.h"
 
 namespace kontur {
 namespace {

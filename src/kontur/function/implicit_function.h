@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "kontur/base/geometry.h"
 #include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
+#include "kontur/function/point_arrays.h"
 
 namespace kontur {
 

@@ -2,8 +2,10 @@
 #include "kontur/function/split_kernel.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/base/instruction_sets.h"
+#include "kontur/function/screened_kernel.h"
 
 namespace kontur {
 namespace {

@@ -5,7 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "kontur/base/geometry.h"
+#include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
+#include "kontur/function/point_arrays.h"
 
 namespace kontur {
 

@@ -128,7 +128,7 @@ void tell(const Trial& trial, double walking, ImageReport& report) {
     report.wrong_without = wrong.alone / wrong.drawn;
     report.wrong_with = wrong.walked / wrong.drawn;
     if (report.walked)
-        for (AskedPoint& point : report.asked) point.share = report.share_left();
+        for (ImageShare& point : report.shares) point.share = report.share_left();
 }
 
 }  // namespace

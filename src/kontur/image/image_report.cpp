@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What people are told of the image.
+#include "kontur/image/image_report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "kontur/image/follow_image.h"
 
 namespace kontur {
 namespace {

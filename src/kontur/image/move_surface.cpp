@@ -87,14 +87,14 @@ std::vector<PointConstraint> outside(const Movement& movement, const FittedFunct
     return told;
 }
 
-std::vector<AskedPoint> asked_points(const Movement& movement) {
-    std::vector<AskedPoint> asked;
+std::vector<ImageShare> image_shares(const Movement& movement) {
+    std::vector<ImageShare> shares;
     for (std::size_t i = 0; i < movement.points.size(); ++i) {
         const MovingPoint& p = movement.points[i];
         const double share = std::clamp(movement.offsets.sd_mm[i] / p.prior_mm, 0.0, 1.0);
-        asked.push_back({p.position + movement.offsets.mean_mm[i] * p.normal, share});
+        shares.push_back({p.position + movement.offsets.mean_mm[i] * p.normal, share});
     }
-    return asked;
+    return shares;
 }
 
 /// As far from the surface as offsets are searched, and as points of it are apart.
@@ -154,7 +154,7 @@ ImageFit move_surface(AskedSurface asked, const DrawnOnImage& drawn, const Drawi
         if (left.empty()) {
             result.fitted = std::move(moved);
             result.report.on_contours_mm = largest_change(fitted.function, result.fitted.function, drawing.contours, work);
-            result.report.asked = asked_points(movement);
+            result.report.shares = image_shares(movement);
             for (const double u : movement.offsets.mean_mm)
                 result.report.largest_move_mm = std::max(result.report.largest_move_mm, std::abs(u));
             return result;

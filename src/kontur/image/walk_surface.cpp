@@ -46,7 +46,7 @@ bool comes_through_planes(const ImplicitFunction& now, const CellDepths& now_dep
 
 /// Places of the surface, evenly, and how far it moved.
 struct Moved {
-    std::vector<AskedPoint> asked;
+    std::vector<ImageShare> shares;
     double most_mm = 0;
 };
 
@@ -61,7 +61,7 @@ Moved moved(const ImplicitFunction& function, const CellDepths& now, const Voxel
     }
     places = spread(places, count, frame);
     slide_to_surface(function, places, {.reach_mm = cells.edge_mm(), .steps = 2}, work);
-    for (const Vec3& p : places) moved.asked.push_back({p, 1});
+    for (const Vec3& p : places) moved.shares.push_back({p, 1});
     return moved;
 }
 
@@ -92,7 +92,7 @@ std::optional<ImageFit> walk_surface(const WalkedImage& image, const Drawing& dr
         ImageFit result{std::move(through), {.verdict = ImageVerdict::used}};
         result.report.walked = true;
         result.report.on_contours_mm = on_contours;
-        result.report.asked = std::move(places.asked);
+        result.report.shares = std::move(places.shares);
         result.report.largest_move_mm = places.most_mm;
         return result;
     }

@@ -17,21 +17,6 @@ void extend(LabelBox& found, std::int64_t first, std::int64_t last, std::int64_t
 
 }  // namespace
 
-bool IndexBox::contains(const Index3& at) const {
-    for (int axis = 0; axis < 3; ++axis)
-        if (at[axis] < low[axis] || at[axis] > high[axis]) return false;
-    return true;
-}
-
-IndexBox IndexBox::padded(const Index3& margin, const Index3& size) const {
-    IndexBox box;
-    for (int axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::max<std::int64_t>(low[axis] - margin[axis], 0);
-        box.high[axis] = std::min<std::int64_t>(high[axis] + margin[axis], size[axis] - 1);
-    }
-    return box;
-}
-
 std::map<std::int64_t, LabelBox> label_boxes(const Image& labels, std::size_t max_labels) {
     check_image(labels);
     const Index3 size = labels.grid.size;
@@ -56,12 +41,6 @@ std::map<std::int64_t, LabelBox> label_boxes(const Image& labels, std::size_t ma
     };
     if (!std::visit(look, labels.samples)) count_labels(labels, max_labels);  // says what is wrong
     return found;
-}
-
-Grid grid_of(const Grid& grid, const IndexBox& box) {
-    Grid part{box.size(), grid.index_to_mm};
-    part.index_to_mm.translation = grid.center_mm(box.low.i, box.low.j, box.low.k);
-    return part;
 }
 
 Mask label_mask(const Image& labels, std::int64_t label, const IndexBox& box) {

@@ -9,10 +9,12 @@
 
 #include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
-#include "kontur/labels/boxed_mask.h"
+#include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
 
 namespace kontur {
+
+struct BoxedMask;
 
 /// The surfaces of several objects as one mesh: where two of them touch they have their points and triangles in common.
 struct SharedSurface {

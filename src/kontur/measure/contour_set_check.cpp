@@ -11,8 +11,11 @@
 #include "kontur/base/checks.h"
 #include "kontur/measure/contour_check.h"
 #include "kontur/measure/findings.h"
+#include "kontur/shape/apply_fill_rule.h"
+#include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/shape/fill_rule.h"
+#include "kontur/shape/find_near_lines.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {

@@ -5,6 +5,7 @@
 
 #include "kontur/base/instruction_sets.h"
 #include "kontur/base/parallel.h"
+#include "kontur/function/kernel_sums.h"
 
 namespace kontur {
 namespace {

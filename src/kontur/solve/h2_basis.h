@@ -4,6 +4,7 @@
 #include <span>
 
 #include "kontur/base/work.h"
+#include "kontur/function/point_arrays.h"
 #include "kontur/solve/h2_interpolation.h"
 #include "kontur/solve/pair_sums.h"
 

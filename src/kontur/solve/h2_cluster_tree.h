@@ -6,6 +6,7 @@
 
 #include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
+#include "kontur/function/point_arrays.h"
 
 namespace kontur {
 

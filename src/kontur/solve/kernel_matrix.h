@@ -6,6 +6,8 @@
 
 #include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
+#include "kontur/function/kernel_sums.h"
+#include "kontur/function/point_arrays.h"
 
 namespace kontur {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kontur/function/kernel.h"
+#include "kontur/function/point_arrays.h"
 
 namespace kontur {
 

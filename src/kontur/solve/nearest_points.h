@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kontur/base/work.h"
+#include "kontur/function/point_arrays.h"
 #include "kontur/solve/h2_cluster_tree.h"
 
 namespace kontur {

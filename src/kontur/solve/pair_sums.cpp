@@ -2,8 +2,10 @@
 #include "kontur/solve/pair_sums.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/base/instruction_sets.h"
+#include "kontur/function/screened_kernel.h"
 
 // GCC 12 takes writing one lane of a vector for reading the others.
 #ifndef __clang__

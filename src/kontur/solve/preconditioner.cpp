@@ -9,6 +9,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/instruction_sets.h"
 #include "kontur/base/parallel.h"
+#include "kontur/function/screened_kernel.h"
 #include "kontur/solve/small_cholesky.h"
 
 namespace kontur {

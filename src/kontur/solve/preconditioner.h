@@ -8,6 +8,7 @@
 
 #include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
+#include "kontur/function/point_arrays.h"
 #include "kontur/solve/multiscale_order.h"
 
 namespace kontur {

@@ -159,18 +159,6 @@ std::string_view name(Solver solver) noexcept {
     return "?";
 }
 
-std::string_view name(Kernel kernel) noexcept {
-    switch (kernel) {
-        case Kernel::screened:
-            return "screened";
-        case Kernel::triharmonic:
-            return "triharmonic";
-        case Kernel::biharmonic:
-            return "biharmonic";
-    }
-    return "?";
-}
-
 void check_solve_options(const SolveOptions& options) {
     if (options.ball &&
         !(is_finite(options.ball->center) && options.ball->radius >= 0 && std::isfinite(options.ball->radius)))

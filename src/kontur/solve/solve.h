@@ -4,25 +4,17 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "kontur/base/smallest_ball.h"
 #include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
+#include "kontur/function/kernel_sums.h"
 #include "kontur/solve/constraint_set.h"
+#include "kontur/solve/solver.h"
 
 namespace kontur {
-
-enum class Solver {
-    automatic,  ///< iterative
-    iterative,  ///< projected conjugate gradients, sparse inverse Cholesky preconditioner: O(n) memory
-    cholesky,   ///< polynomials projected out, dense Cholesky: n^3/3 flops, 4 n^2 bytes
-    dense,      ///< the symmetric indefinite system of Eq. 6 by LAPACK dsysv, as printed in the paper: 8 n^2 bytes
-};
-std::string_view name(Solver solver) noexcept;
-std::string_view name(Kernel kernel) noexcept;
 
 /// The mean of the screened kernel's functions in radii of the ball, outside.
 inline constexpr double kMeanRadii = -1;

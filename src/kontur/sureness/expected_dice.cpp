@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/sureness/surface_evidence.h"
 #include "kontur/sureness/uncertainty_model.h"
 
 namespace kontur {

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
-#include "kontur/sureness/surface_evidence.h"
-
 namespace kontur {
+
+struct SurfaceEvidence;
 
 /// Overlap with the truth that a mask of the surface may be expected to have; the true one lies within [low, high] in 90 %.
 struct ExpectedDice {

@@ -8,7 +8,9 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
+#include "kontur/sureness/candidate_planes.h"
 #include "kontur/sureness/far_places.h"
+#include "kontur/sureness/surface_evidence.h"
 #include "kontur/sureness/uncertainty_model.h"
 
 namespace kontur {

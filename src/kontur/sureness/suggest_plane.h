@@ -3,16 +3,17 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/shape/contour.h"
 #include "kontur/shape/grid.h"
-#include "kontur/sureness/candidate_planes.h"
 #include "kontur/sureness/expected_dice.h"
-#include "kontur/sureness/surface_evidence.h"
+#include "kontur/sureness/image_slice.h"
 
 namespace kontur {
+
+struct SurfaceEvidence;
 
 struct SuggestPlaneOptions {
     PlaneChoice planes = PlaneChoice::any;

@@ -24,7 +24,7 @@ SurfaceEvidence gather_evidence(SurfaceSamples samples, const ContourSet& contou
     SurfaceEvidence evidence{.samples = std::move(samples), .distances_mm = {}, .lines = DrawnLines(contours)};
     evidence.distances_mm = evidence.lines.distances_to(evidence.samples.points, work);
     evidence.size_mm = size_mm(evidence.samples, facts.volume_mm3);
-    evidence.image = ImageShares(facts.asked);
+    evidence.image = ImageShares(facts.shares);
     for (const Vec3& p : evidence.samples.points) evidence.shares.push_back(evidence.image.at(p));
     evidence.volume_mm3 = facts.volume_mm3;
     evidence.voxel_mm = facts.voxel_mm;

@@ -36,7 +36,7 @@ struct EvidenceFacts {
     double voxel_mm = 0;
     double residual_mm = 0;
     double disagreement_mm = 0;
-    std::vector<AskedPoint> asked{};  ///< of the image, where it was used
+    std::vector<ImageShare> shares{};  ///< of the image, where it was used
 };
 
 SurfaceEvidence gather_evidence(SurfaceSamples samples, const ContourSet& contours, const EvidenceFacts& facts,

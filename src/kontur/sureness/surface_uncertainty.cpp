@@ -10,6 +10,7 @@
 #include "kontur/base/counted.h"
 #include "kontur/base/parallel.h"
 #include "kontur/sampling/quantile.h"
+#include "kontur/sureness/surface_evidence.h"
 #include "kontur/sureness/uncertainty_model.h"
 
 namespace kontur {

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "kontur/base/geometry.h"
 #include "kontur/base/work.h"
 #include "kontur/sureness/expected_dice.h"
-#include "kontur/sureness/surface_evidence.h"
 
 namespace kontur {
+
+struct SurfaceEvidence;
 
 /// How sure a fitted surface is. Below `kLeastPlanes` different planes nothing is known: `is_known` is false and all figures
 /// are 0. What no contour touches is not in the surface and in none of these figures.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/sureness/uncertainty_map.h"
 
+#include "kontur/sureness/surface_evidence.h"
 #include "kontur/sureness/surface_uncertainty.h"
 
 namespace kontur {

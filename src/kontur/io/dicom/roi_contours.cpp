@@ -11,6 +11,7 @@
 #include "kontur/base/counted.h"
 #include "kontur/io/geometry/keyhole.h"
 #include "kontur/io/geometry/shared_planes.h"
+#include "kontur/shape/apply_fill_rule.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/fill_rule.h"
 #include "kontur/shape/repeated_contours.h"

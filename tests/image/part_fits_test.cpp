@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/image/kept_fits.h"
+#include "kontur/image/part_fits.h"
 
 #include <gtest/gtest.h>
 
@@ -27,10 +27,10 @@ public:
             ++fits;
             return fit_coarsely(part, stages, {.threads = 1});
         };
-        kept_.begin_question();
+        part_fits_.begin_question();
         ImageFit with_image = follow_image(
             drawing, prepared, fitted, image(),
-            [&](const ContourSet& part) { return kept_.of(part, drawing.diameter_mm(), fit_part); }, {.fit = stages.fit},
+            [&](const ContourSet& part) { return part_fits_.of(part, drawing.diameter_mm(), fit_part); }, {.fit = stages.fit},
             work);
         return {std::move(with_image), fits};
     }
@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    KeptFits kept_;
+    PartFits part_fits_;
 };
 
 /// Drawn a little smaller, so that the drawing's diameter stays.
@@ -55,7 +55,7 @@ bool same(const ImageFit& a, const ImageFit& b) {
     return std::ranges::equal(a.fitted.function.weights(), b.fitted.function.weights());
 }
 
-TEST(KeptFits, NoPartOfADrawingIsFittedTwice) {
+TEST(PartFits, NoPartOfADrawingIsFittedTwice) {
     const ContourSet drawn = drawn_on(orthogonal_planes()), edited = with_smaller(drawn, 1), again = with_smaller(edited, 1);
     Questions questions;
     const auto [first, fits] = questions.ask(drawn);
@@ -71,9 +71,9 @@ TEST(KeptFits, NoPartOfADrawingIsFittedTwice) {
     EXPECT_TRUE(same(first, questions.ask(drawn).first));
 }
 
-TEST(KeptFits, TellsPartsApartByAllThatAFitMayDependOn) {
+TEST(PartFits, TellsPartsApartByAllThatAFitMayDependOn) {
     ContourSet part = drawn_on(stacked_planes());
-    KeptFits kept;
+    PartFits part_fits;
     int fits = 0;
     const auto fit = [&](const ContourSet&) {
         ++fits;
@@ -81,7 +81,7 @@ TEST(KeptFits, TellsPartsApartByAllThatAFitMayDependOn) {
     };
     const auto is_new = [&](const ContourSet& other, double diameter_mm = 60) {
         const int before = fits;
-        kept.of(other, diameter_mm, fit);
+        part_fits.of(other, diameter_mm, fit);
         return fits > before;
     };
     EXPECT_TRUE(is_new(part));
@@ -110,23 +110,23 @@ TEST(KeptFits, TellsPartsApartByAllThatAFitMayDependOn) {
     EXPECT_FALSE(is_new(part));
 }
 
-TEST(KeptFits, ForgetsWhatIsNoLongerAskedFor) {
-    KeptFits kept;
+TEST(PartFits, ForgetsWhatIsNoLongerAskedFor) {
+    PartFits fits;
     const auto fit = [](const ContourSet&) { return ImplicitFunction(); };
     const ContourSet often = drawn_on(stacked_planes()), once = drawn_on(orthogonal_planes());
-    kept.of(once, 60, fit);
-    for (int question = 0; question < 3 * KeptFits::kQuestions; ++question) {
-        kept.begin_question();
-        kept.of(often, 60, fit);
+    fits.of(once, 60, fit);
+    for (int question = 0; question < 3 * PartFits::kQuestions; ++question) {
+        fits.begin_question();
+        fits.of(often, 60, fit);
     }
-    EXPECT_EQ(kept.size(), 1u);
+    EXPECT_EQ(fits.size(), 1u);
 }
 
-TEST(KeptFits, KeepsNothingOfAFitThatFailed) {
-    KeptFits kept;
+TEST(PartFits, KeepsNothingOfAFitThatFailed) {
+    PartFits fits;
     const auto fails = [](const ContourSet&) -> ImplicitFunction { throw Error(ErrorKind::cancelled, "stopped"); };
-    EXPECT_THROW(kept.of({}, 60, fails), Error);
-    EXPECT_EQ(kept.size(), 0u);
+    EXPECT_THROW(fits.of({}, 60, fails), Error);
+    EXPECT_EQ(fits.size(), 0u);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/stages.h"
+#include "kontur/pipeline.h"
 
 #include <fmt/format.h>
 
@@ -143,12 +143,14 @@ ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& option
 }
 
 ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                      const Image& image, const StageOptions& options, const Work& work, KeptFits* kept) {
+                      const Image& image, const StageOptions& options, const Work& work, PartFits* part_fits) {
     work.report("ask the image", 0);
     const Work alone{.threads = 1, .stop = work.stop};  // parts are fitted beside each other
     const FitContours fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options, alone); };
-    const FitContours fit_once = [&](const ContourSet& part) { return kept->of(part, drawing.diameter_mm(), fit_part); };
-    return follow_image(drawing, prepared, fitted, image, kept ? fit_once : fit_part, {.fit = options.fit}, work);
+    const FitContours fit_once = [&](const ContourSet& part) {
+        return part_fits->of(part, drawing.diameter_mm(), fit_part);
+    };
+    return follow_image(drawing, prepared, fitted, image, part_fits ? fit_once : fit_part, {.fit = options.fit}, work);
 }
 
 namespace {

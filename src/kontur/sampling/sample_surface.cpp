@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/sampling/surface_samples.h"
+#include "kontur/sampling/sample_surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/image/kept_fits.h"
+#include "kontur/image/part_fits.h"
 
 #include <span>
 
@@ -54,30 +54,30 @@ std::string digest(const ContourSet& set, double diameter_mm) {
 
 }  // namespace
 
-ImplicitFunction KeptFits::of(const ContourSet& part, double diameter_mm, const FitContours& fit) {
+ImplicitFunction PartFits::of(const ContourSet& part, double diameter_mm, const FitContours& fit) {
     const std::string key = digest(part, diameter_mm);
     {
         const std::lock_guard lock(mutex_);
-        if (const auto found = kept_.find(key); found != kept_.end()) {
+        if (const auto found = fits_.find(key); found != fits_.end()) {
             found->second.question = question_;
             return found->second.function;
         }
     }
     ImplicitFunction function = fit(part);  // others need not wait for it
     const std::lock_guard lock(mutex_);
-    kept_.insert_or_assign(key, Kept{function, question_});
+    fits_.insert_or_assign(key, PartFit{function, question_});
     return function;
 }
 
-void KeptFits::begin_question() {
+void PartFits::begin_question() {
     const std::lock_guard lock(mutex_);
     ++question_;
-    std::erase_if(kept_, [&](const auto& entry) { return entry.second.question < question_ - kQuestions; });
+    std::erase_if(fits_, [&](const auto& entry) { return entry.second.question < question_ - kQuestions; });
 }
 
-std::size_t KeptFits::size() const {
+std::size_t PartFits::size() const {
     const std::lock_guard lock(mutex_);
-    return kept_.size();
+    return fits_.size();
 }
 
 }  // namespace kontur

@@ -12,7 +12,7 @@ namespace kontur {
 
 /// Fits to parts of drawings, kept from question to question, so that while a drawing is edited no part is fitted twice: not
 /// the one without the plane that is edited, and none at all when an edit is undone. Safe to use from several threads.
-class KeptFits {
+class PartFits {
 public:
     /// What `fit` makes of the part, or made of it before. What else `fit` depends on has to be told by `diameter_mm`, of
     /// the whole drawing. Throws as `fit` does; nothing is kept then.
@@ -25,13 +25,13 @@ public:
     std::size_t size() const;
 
 private:
-    struct Kept {
+    struct PartFit {
         ImplicitFunction function;
         std::int64_t question;  ///< the last that needed it
     };
 
     mutable std::mutex mutex_;  // guards all below
-    std::map<std::string, Kept> kept_;
+    std::map<std::string, PartFit> fits_;
     std::int64_t question_ = 0;
 };
 

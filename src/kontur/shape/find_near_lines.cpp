@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/shape/near_lines.h"
+#include "kontur/shape/find_near_lines.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/shape/fill_rule.h"
+#include "kontur/shape/apply_fill_rule.h"
 
 #include <algorithm>
 #include <iterator>
@@ -7,6 +7,7 @@
 
 #include "kontur/base/counted.h"
 #include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/find_near_lines.h"
 #include "kontur/shape/section.h"
 #include "kontur/shape/seen_inside.h"
 

@@ -62,6 +62,14 @@ TEST(InnerLines, ALineThatLiesInNoOtherStaysAsItIs) {
     for (const BoundaryPoint& point : kept) EXPECT_TRUE(point.on_ring && point.inplane_normal != Vec3{} && point.line == 0);
 }
 
+TEST(InnerLines, OpenLinesAndSinglePointsStay) {
+    const ContourSet set = of({box(0, 0, 20, 10)});
+    std::vector<BoundaryPoint> points(3, {.position = kPlane.from_uv(5, 5), .inplane_normal = kPlane.u});
+    points[1].contour = points[2].contour = kNoContour;
+    leave_out_inner_lines(DrawnPlanes(set), 0.05, points);
+    EXPECT_EQ(points.size(), 3u);
+}
+
 TEST(InnerLines, AnEdgeInCommonIsNoBorder) {
     const std::vector<BoundaryPoint> kept = borders(of({box(0, 0, 20, 10), box(20, 0, 20, 10)}));
     EXPECT_EQ(kept.size(), 2u * (60 - 9));

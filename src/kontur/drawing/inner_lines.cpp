@@ -74,8 +74,10 @@ void leave_out_inner_lines(const DrawnPlanes& planes, double cleft_mm, std::vect
         const auto is_of_line = [&](const BoundaryPoint& p) {
             return p.on_ring && p.contour == points[begin].contour && p.line == points[begin].line;
         };
-        do is_inner.push_back(points[begin].on_ring && inner_lines.has(points[end++]));
-        while (end < points.size() && is_of_line(points[begin]) && is_of_line(points[end]));
+        do {
+            is_inner.push_back(points[end].on_ring && inner_lines.has(points[end]));
+            ++end;
+        } while (end < points.size() && is_of_line(points[begin]) && is_of_line(points[end]));
         const std::vector<BoundaryPoint> line(points.begin() + static_cast<std::ptrdiff_t>(begin),
                                               points.begin() + static_cast<std::ptrdiff_t>(end));
         if (std::ranges::find(is_inner, true) == is_inner.end()) kept.insert(kept.end(), line.begin(), line.end());

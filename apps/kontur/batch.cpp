@@ -121,18 +121,24 @@ double dice_of(const Facts& figures) {
     return told.value("known", false) ? told.at("expected_dice").value("value", 0.0) : 0;
 }
 
+/// The largest share of a drawn section that is not as drawn.
+double wrong_share_of(const Facts& figures) { return figures.at("section_check").value("largest_wrong_share", 0.0); }
+
 /// What the summary says of a case, from the report that `segment` wrote: of each structure, where it made several.
 Facts figures_of(const Facts& report) {
     Facts facts;
-    for (const char* key : {"mask", "residual_mm", "uncertainty", "warnings"})
+    for (const char* key : {"mask", "residual_mm", "section_check", "uncertainty", "warnings"})
         if (report.contains(key)) facts[key] = report[key];
     if (!report.contains("structures")) return facts;
     Facts structures = Facts::array(), warnings = Facts::array();
     double residual_max_mm = 0;
     for (const Facts& structure : report["structures"]) {
         Facts& told = structures.emplace_back();
-        for (const char* key : {"label", "name", "mask", "residual_mm", "uncertainty"}) told[key] = structure.at(key);
+        for (const char* key : {"label", "name", "mask", "residual_mm", "section_check", "uncertainty"})
+            told[key] = structure.at(key);
         if (!facts.contains("uncertainty") || dice_of(told) < dice_of(facts)) facts["uncertainty"] = told["uncertainty"];
+        if (!facts.contains("section_check") || wrong_share_of(told) > wrong_share_of(facts))
+            facts["section_check"] = told["section_check"];
         residual_max_mm = std::max(residual_max_mm, structure.at("residual_mm").value("max", 0.0));
         for (const Facts& warning : structure.at("warnings"))
             warnings.push_back(fmt::format("{}: {}", structure.at("name").get<std::string>(), warning.get<std::string>()));
@@ -340,15 +346,16 @@ std::string totals_of(const Facts& summary) {
 std::string table_of(const Facts& summary) {
     std::size_t width = 4;
     for (const Facts& one : summary["cases"]) width = std::max(width, one["case"].get<std::string>().size());
-    std::string text = fmt::format("{:<{}}  {:<7}  {:>10}  {:>10}  {:>7}  {:>8}  {:>8}\n", "case", width, "state", "ml",
-                                   "max mm", "Dice?", "s", "warnings");
+    std::string text = fmt::format("{:<{}}  {:<7}  {:>10}  {:>10}  {:>7}  {:>7}  {:>8}  {:>8}\n", "case", width, "state",
+                                   "ml", "max mm", "wrong %", "Dice?", "s", "warnings");
     for (const Facts& one : summary["cases"]) {
         const auto cell = [&](const char* group, const char* key) {
             return one.contains(group) ? fmt::format("{:.3f}", one[group].value(key, 0.0)) : std::string("-");
         };
         const double dice = one.contains("uncertainty") ? dice_of(one) : 0;
-        text += fmt::format("{:<{}}  {:<7}  {:>10}  {:>10}  {:>7}  {:>8.1f}  {:>8}", one["case"].get<std::string>(), width,
-                            one["state"].get<std::string>(), cell("mask", "volume_ml"), cell("residual_mm", "max"),
+        text += fmt::format("{:<{}}  {:<7}  {:>10}  {:>10}  {:>7}  {:>7}  {:>8.1f}  {:>8}", one["case"].get<std::string>(),
+                            width, one["state"].get<std::string>(), cell("mask", "volume_ml"), cell("residual_mm", "max"),
+                            one.contains("section_check") ? fmt::format("{:.1f}", 100 * wrong_share_of(one)) : "-",
                             dice > 0 ? fmt::format("{:.2f}", dice) : "-", one.value("seconds", 0.0),
                             one.contains("warnings") ? fmt::to_string(warning_count(one)) : "-");
         if (one.contains("error")) text += fmt::format("  {}", one["error"].get<std::string>());

@@ -29,6 +29,7 @@ void bind_labels(py::module_& m);
 void bind_editor(py::module_& m);
 void bind_measures(py::module_& m);
 void bind_findings(py::module_& m);
+void bind_section_checks(py::module_& m);
 void bind_pictures(py::module_& m);
 void bind_livewire(py::module_& stages);
 void bind_files(py::module_& m);

@@ -58,6 +58,7 @@ PYBIND11_MODULE(_core, m) {
     bind_fitting(stages);
     bind_extraction(m, stages);
     bind_uncertainty_types(m);
+    bind_section_checks(m);
     bind_segment(m);
     bind_together(m);
     bind_shared_surfaces(m);

@@ -122,6 +122,7 @@ void bind_report(py::module_& m) {
         .field("residual", &Report::residual, "Residual: at all drawn points.")
         .field("crossings", &Report::crossings,
                "list of Crossing: contours of different planes, those that disagree most first.")
+        .field("section_check", &Report::section_check, "SectionCheck: the result against its own drawing.")
         .field(
             "near_lines", &Report::near_lines,
             "list of NearLines: lines of one plane that count as one or leave a thin wall, with indices of what was drawn.")

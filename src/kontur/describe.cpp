@@ -127,7 +127,7 @@ void describe_thinness(const ContourSet& contours, const Grid& grid, std::vector
 /// Where a contour has few points, the surface may leave the line between them.
 void describe_long_edges(const StageResults& results, const Work& work, std::vector<std::string>& warnings) {
     constexpr double kShare = 0.02;  // of the drawing's diameter
-    const auto& [drawing, stages, prepared, fitted, image, surface, mask] = results;
+    const auto& [drawing, stages, prepared, fitted, image, surface, mask, check] = results;
     const double diameter = drawing.diameter_mm();
     const Residual between = residual_between_points(fitted.function, drawing.contours, kShare * diameter, work);
     if (between.max_mm > kShare * diameter)
@@ -166,7 +166,7 @@ void append(std::vector<std::string>& list, const std::vector<std::string>& more
 }  // namespace
 
 SegmentReport describe(const StageResults& results, const SegmentOptions& options, const Work& work) {
-    const auto& [drawing, stages, prepared, fitted, image, surface, mask] = results;
+    const auto& [drawing, stages, prepared, fitted, image, surface, mask, check] = results;
     const ContourSet& contours = drawing.contours;
     SegmentReport report;
     report.contours = contours.contours.size();
@@ -187,6 +187,8 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     describe_long_edges(results, work, report.warnings);
     describe_strays(drawing, report.warnings);
     describe_crossings(drawing, mask.grid, report);
+    report.section_check = check;
+    append(report.warnings, sentences(check));
     describe_thinness(contours, mask.grid, report.warnings);
     describe_mask(surface, mask, report);
     describe_lost_clicks(contours, fitted.function, mask, report.warnings);

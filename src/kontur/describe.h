@@ -3,6 +3,7 @@
 
 #include "kontur/base/work.h"
 #include "kontur/extract/track.h"
+#include "kontur/measure/section_check.h"
 #include "kontur/pipeline.h"
 #include "kontur/segment_report.h"
 #include "kontur/shape/volume.h"
@@ -19,6 +20,7 @@ struct StageResults {
     const ImageReport& image;
     const SurfaceLattice& surface;
     const Mask& mask;
+    const SectionCheck& check;
 };
 
 /// The report of a run, with a sentence on each choice and doubt; `seconds` and `estimated_memory_mb` are left to `segment`.

@@ -52,6 +52,49 @@ Facts near_lines_json(const std::vector<NearLines>& pairs) {
     return facts;
 }
 
+Facts region_json(const WrongRegion& region) {
+    return {{"position_mm", triple(region.position)}, {"area_mm2", region.area_mm2}, {"depth_mm", region.depth_mm},
+            {"missing", region.is_missing},           {"island", region.is_island},  {"lost", region.is_lost},
+            {"explained", region.is_explained}};
+}
+
+/// Of an empty plane: null.
+Facts contour_json(const std::optional<std::size_t>& contour) { return contour ? Facts(*contour + 1) : Facts(nullptr); }
+
+/// Each drawn plane that is wrong, with its three largest regions, and what is wrong between and beyond the planes.
+Facts section_check_json(const SectionCheck& check) {
+    constexpr std::size_t kShown = 3;
+    Facts planes = Facts::array(), between = Facts::array(), beyond = Facts::array();
+    for (const PlaneCheck& plane : check.planes) {
+        if (!plane.is_wrong) continue;
+        Facts regions = Facts::array();
+        for (const WrongRegion& region : std::span(plane.regions).first(std::min(kShown, plane.regions.size())))
+            regions.push_back(region_json(region));
+        planes.push_back({{"contour", contour_json(plane.contour)},
+                          {"area_mm2", plane.area_mm2},
+                          {"wrong_share", plane.wrong_share},
+                          {"island_share", plane.island_share},
+                          {"regions", std::move(regions)}});
+    }
+    for (const BetweenCheck& pair : check.between)
+        if (pair.is_wrong)
+            between.push_back({{"contour", pair.contour + 1},
+                               {"other", pair.other + 1},
+                               {"missing_share", pair.missing_share},
+                               {"gap_mm", pair.gap_mm},
+                               {"position_mm", triple(pair.position)}});
+    for (const BeyondCheck& end : check.beyond)
+        if (end.is_wrong)
+            beyond.push_back({{"contour", end.contour + 1},
+                              {"length_mm", end.length_mm},
+                              {"gap_mm", end.gap_mm},
+                              {"position_mm", triple(end.position)}});
+    return {{"planes", check.planes.size()},     {"largest_wrong_share", check.largest_wrong_share()},
+            {"wrong_planes", std::move(planes)}, {"between", std::move(between)},
+            {"beyond", std::move(beyond)},       {"outside_share", check.outside_share},
+            {"sentences", sentences(check)}};
+}
+
 Facts provenance_json(const Provenance& made) {
     Facts facts = Facts::object();
     for (const auto& [key, value] : made) facts[key] = value;
@@ -118,6 +161,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"residual_mm", {{"max", report.residual.max_mm}, {"rms", report.residual.rms_mm}}},
         {"crossings", crossings_json(report.crossings)},
         {"near_lines", near_lines_json(report.near_lines)},
+        {"section_check", section_check_json(report.section_check)},
         {"voxelizer", name(report.voxelizer)},
         {"evaluations", report.evaluations},
         {"surface_voxels", report.surface_voxels},

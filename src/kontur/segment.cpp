@@ -5,6 +5,7 @@
 
 #include "kontur/base/stopwatch.h"
 #include "kontur/describe.h"
+#include "kontur/drawing_check.h"
 #include "kontur/extract/find_surface.h"
 #include "kontur/extract/mesh_grid.h"
 #include "kontur/memory_estimate.h"
@@ -49,7 +50,9 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
         watch.lap("polygonize");
     }
 
-    result.report = describe({drawing, stages, prepared, fitted, image_report, surface, result.mask}, options, work);
+    SectionCheck check = check_sections(drawing, fitted.function, surface, result.mask, work);
+    watch.lap("check");
+    result.report = describe({drawing, stages, prepared, fitted, image_report, surface, result.mask, check}, options, work);
     result.samples = sample_surface(surface, fitted.function, kSurfaceSamples, work);
     result.report.uncertainty =
         surface_uncertainty(gather_evidence(result.samples, drawing.contours, evidence_facts(result.report, grid), work));

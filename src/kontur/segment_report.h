@@ -9,6 +9,7 @@
 
 #include "kontur/fit/residual.h"
 #include "kontur/image/image_report.h"
+#include "kontur/measure/section_check.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/crossings.h"
@@ -44,6 +45,7 @@ struct SegmentReport {
     int iterations = 0;                 ///< over all solves; 0 for direct solvers
     Residual residual;                  ///< at all drawn points
     std::vector<Crossing> crossings;    ///< of contours of different planes, those that disagree most first
+    SectionCheck section_check;         ///< of the result against its own drawing
     std::vector<NearLines> near_lines;  ///< lines of one plane that are one or leave a thin wall, counted as they came
     std::int64_t evaluations = 0;       ///< function values computed to voxelize
     std::int64_t surface_voxels = 0;    ///< lattice cells that the surface passes through

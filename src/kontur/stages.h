@@ -38,3 +38,6 @@
 // Lines along the edges of an image, and curves through points.
 #include "kontur/shape/spline.h"
 #include "kontur/view/livewire.h"
+
+// The result against its own drawing.
+#include "kontur/drawing_check.h"

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/measure/section_raster.h"
+
+#include <algorithm>
+
+namespace kontur {
+namespace {
+
+// Pixels lie a little beside the outlines' corners, which often are on round numbers.
+constexpr double kAside = 0.377;
+constexpr double kMargin = 0.15;  // around the outlines, of their extent
+
+PixelLattice lattice_around(const Box2& box, double step, double margin) {
+    PixelLattice lattice{{box.low[0] - margin + kAside * step, box.low[1] - margin + kAside * step}, step, 0, 0};
+    lattice.columns = static_cast<int>((box.high[0] + margin - lattice.low[0]) / step) + 1;
+    lattice.rows = static_cast<int>((box.high[1] + margin - lattice.low[1]) / step) + 1;
+    return lattice;
+}
+
+/// Adds the outline's layer to the pixels inside of it, row by row.
+void add_layer(const Polygon2& outline, int layer, const PixelLattice& lattice, std::vector<std::int16_t>& layers) {
+    std::vector<std::vector<double>> cuts(static_cast<std::size_t>(lattice.rows));
+    for_each_edge(outline, [&](const Point2& a, const Point2& b) {
+        const Point2 &low = a[1] < b[1] ? a : b, &high = a[1] < b[1] ? b : a;
+        const double first = std::ceil((low[1] - lattice.low[1]) / lattice.step_mm),
+                     last = std::ceil((high[1] - lattice.low[1]) / lattice.step_mm);
+        for (int row = std::max(0, static_cast<int>(first)); row < std::min<double>(last, lattice.rows); ++row) {
+            const double y = lattice.low[1] + lattice.step_mm * row;
+            const double x = low[0] + (y - low[1]) * (high[0] - low[0]) / (high[1] - low[1]);
+            cuts[static_cast<std::size_t>(row)].push_back(x);
+        }
+    });
+    for (int row = 0; row < lattice.rows; ++row) {
+        std::vector<double>& here = cuts[static_cast<std::size_t>(row)];
+        std::sort(here.begin(), here.end());
+        for (std::size_t n = 0; n + 1 < here.size(); n += 2) {
+            const auto column = [&](double x) {
+                return std::clamp(static_cast<int>(std::ceil((x - lattice.low[0]) / lattice.step_mm)), 0, lattice.columns);
+            };
+            for (int c = column(here[n]); c < column(here[n + 1]); ++c)
+                layers[lattice.index(c, row)] = static_cast<std::int16_t>(layers[lattice.index(c, row)] + layer);
+        }
+    }
+}
+
+void fill(const Section& section, SectionRaster& raster) {
+    std::vector<std::int16_t> layers(raster.lattice.count());
+    for (std::size_t o = 0; o < section.outlines.size(); ++o)
+        add_layer(section.outlines[o], section.layer(o), raster.lattice, layers);
+    raster.filled.assign(layers.size(), 0);
+    std::size_t pixels = 0;
+    for (std::size_t n = 0; n < layers.size(); ++n) pixels += raster.filled[n] = layers[n] > 0;
+    raster.area_mm2 = static_cast<double>(pixels) * raster.lattice.pixel_mm2();
+}
+
+}  // namespace
+
+SectionRaster rasterize(const Section& section) {
+    constexpr double kFewest = 80, kMost = 160;  // pixels across the outlines
+    constexpr double kOfWidth = 0.4;             // a pixel's, of the mean width of what is enclosed
+    SectionRaster raster;
+    double length = 0;
+    for (const Polygon2& outline : section.outlines)
+        for_each_edge(outline, [&](const Point2& a, const Point2& b) {
+            raster.box.extend(b);
+            length += std::hypot(b[0] - a[0], b[1] - a[1]);
+        });
+    raster.extent_mm = std::max(raster.box.high[0] - raster.box.low[0], raster.box.high[1] - raster.box.low[1]);
+    if (!(raster.extent_mm > 0)) return raster;
+    double step = raster.extent_mm / kFewest;
+    raster.lattice = lattice_around(raster.box, step, std::max(kMargin * raster.extent_mm, 4 * step));
+    fill(section, raster);
+    const double wanted = kOfWidth * 2 * raster.area_mm2 / length;
+    if (raster.area_mm2 > 0 && wanted >= step) return raster;
+    step = std::max(wanted, raster.extent_mm / kMost);
+    raster.lattice = lattice_around(raster.box, step, std::max(kMargin * raster.extent_mm, 4 * step));
+    fill(section, raster);
+    return raster;
+}
+
+PixelParts connected_parts(const PixelLattice& lattice, const std::vector<std::uint8_t>& marked) {
+    PixelParts parts{std::vector<std::uint32_t>(marked.size(), 0), 0};
+    const auto width = static_cast<std::size_t>(lattice.columns);
+    std::vector<std::size_t> front;
+    for (std::size_t start = 0; start < marked.size(); ++start) {
+        if (!marked[start] || parts.part[start] != 0) continue;
+        parts.part[start] = ++parts.count;
+        front.push_back(start);
+        while (!front.empty()) {
+            const std::size_t n = front.back(), column = n % width;
+            front.pop_back();
+            const auto visit = [&](std::size_t next) {
+                if (!marked[next] || parts.part[next] != 0) return;
+                parts.part[next] = parts.count;
+                front.push_back(next);
+            };
+            if (column > 0) visit(n - 1);
+            if (column + 1 < width) visit(n + 1);
+            if (n >= width) visit(n - width);
+            if (n + width < marked.size()) visit(n + width);
+        }
+    }
+    return parts;
+}
+
+}  // namespace kontur

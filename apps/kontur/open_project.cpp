@@ -17,7 +17,6 @@
 #include "kontur/shape/repeated_contours.h"
 #include "viewer/files/import_doubts.h"
 #include "viewer/files/imports.h"
-#include "viewer/images/further_image.h"
 #include "viewer/images/same_space.h"
 #include "viewer/model/temporary_files.h"
 
@@ -74,7 +73,7 @@ viewer::Imported drawn_by_others(const fs::path& file, const Work& work) {
 
 /// What a new project starts with: the contours of the file, or a structure to draw.
 viewer::Imported first_contours(const OpenCommand& command, const Words& words, const Work& work, Opened& result) {
-    if (words.contours.empty()) return {{ContourSet{}}, {}, {}, {}};
+    if (words.contours.empty()) return {{ContourSet{}}, {}, {}};
     viewer::Imported first;
     if (!command.read.roi && dicom_drawing(words.contours)) {
         first = drawn_by_others(words.contours, work);
@@ -85,7 +84,7 @@ viewer::Imported first_contours(const OpenCommand& command, const Words& words, 
         } catch (const Error& error) {
             throw error.with_context(words.contours.string());
         }
-        first = {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid), {}};
+        first = {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
     }
     result.told.notes.insert(result.told.notes.end(), first.notes.begin(), first.notes.end());
     for (ContourSet& set : first.sets)
@@ -96,8 +95,7 @@ viewer::Imported first_contours(const OpenCommand& command, const Words& words, 
 /// Whoever names image and contours together may have named the wrong ones: said here and on the page.
 void tell_doubts(const viewer::Imported& first, const std::string& file, viewer::OpenedImage& image, Opened& result) {
     for (const std::string& doubt :
-         viewer::import_doubts(first.sets, {first.frame_of_reference_uid, first.patient}, image.image->grid,
-                               {image.frame_of_reference_uid, viewer::patient_words(image.identity)})) {
+         viewer::import_doubts(first.sets, first.frame_of_reference_uid, image.image->grid, image.frame_of_reference_uid)) {
         result.told.warnings.push_back(fmt::format("does {} belong to this image? {}", file, doubt));
         image.notes.push_back(fmt::format("Does {} belong to this image? {}", file, doubt));
     }
@@ -107,10 +105,9 @@ void tell_doubts(const viewer::Imported& first, const std::string& file, viewer:
 void check_is_there(const fs::path& image, const fs::path& project) {
     std::error_code unreachable;
     if (image == viewer::kExample || fs::exists(image, unreachable)) return;
-    throw viewer::ImageMoved(fmt::format("{} was drawn on {}, which is not there; where it has moved, name its new place, "
-                                         "too: kontur open {} IMAGE",
-                                         project.string(), image.string(), project.filename().string()),
-                             image.string());
+    throw Error(ErrorKind::io, fmt::format("{} was drawn on {}, which is not there; where it has moved, name its new place, "
+                                           "too: kontur open {} IMAGE",
+                                           project.string(), image.string(), project.filename().string()));
 }
 
 /// The image that the words name, or the project does, with the choice that it was drawn on.
@@ -189,7 +186,6 @@ Opened open_project(const OpenCommand& told, const Words& named, const Work& wor
 std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Work& work) {
     OpenCommand command;
     command.files = {request.path};
-    if (!request.image.empty()) command.files.push_back(request.image);
     choose(command.image.options, request.choice);
     return open_project(command, sorted_words(command), work).session;
 }

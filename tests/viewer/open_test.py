@@ -393,7 +393,7 @@ def test_exports_are_what_the_command_line_makes(server, tmp_path, image):
 
     def export(name):
         status, headers, body = server.request("GET", f"/api/export/{name}?structure={structure}")
-        assert status == 200 and headers["Content-Disposition"] == f'attachment; filename="ball_ball_1{name[name.find("."):]}"'
+        assert status == 200 and headers["Content-Disposition"] == f'attachment; filename="ball___1{name[name.find("."):]}"'
         (tmp_path / name).write_bytes(body)
         return tmp_path / name
 

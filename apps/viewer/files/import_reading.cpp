@@ -13,14 +13,12 @@
 #include "kontur/base/error.h"
 #include "kontur/extract/trace.h"
 #include "kontur/io/contours.h"
-#include "kontur/io/dicom/dicom_identity.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
 #include "kontur/io/images/nrrd.h"
 #include "kontur/io/images/segment_tags.h"
 #include "kontur/shape/repeated_contours.h"
-#include "viewer/images/further_image.h"
 #include "viewer/images/views.h"
 
 namespace kontur::viewer {
@@ -113,7 +111,7 @@ Imported read_segments_of(const fs::path& path, const TraceRequest& request) {
     if (about.segments.size() > kMostImportedLabels)
         throw Error(ErrorKind::too_large, fmt::format("the segmentation has {} segments; the limit is {}",
                                                       about.segments.size(), kMostImportedLabels));
-    Imported imported{{}, about.notes, about.frame_of_reference_uid, {}};
+    Imported imported{{}, about.notes, about.frame_of_reference_uid};
     for (std::size_t n = 0; n < masks.size(); ++n) {
         const DicomSegment& segment = about.segments[n];
         const std::string name = segment.label.empty() ? fmt::format("Segment {}", segment.number) : segment.label;
@@ -129,7 +127,7 @@ Imported read_contours_of(const fs::path& path, const TraceRequest& request) {
     if (path.extension() == ".dcm" && is_dicom_seg(path)) return read_segments_of(path, request);
     ReadContours read = read_contours(path);
     for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
-    return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid), {}};
+    return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
 }
 
 /// What 3D Slicer's segmentations say of the labels of each of their layers; one layer without names of other files.
@@ -176,10 +174,7 @@ Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
 }  // namespace
 
 Imported read_import(const fs::path& path, const Upload& upload) {
-    Imported imported =
-        upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path, upload.trace);
-    if (path.extension() == ".dcm") imported.patient = patient_words(dicom_identity(path));
-    return imported;
+    return upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path, upload.trace);
 }
 
 }  // namespace kontur::viewer

@@ -29,10 +29,7 @@ json result_of(const Upload& upload) {
     const fs::path path = "upload" + upload.extension;
     const Imported imported = read_import(path, upload);
     for (std::size_t i = 0; i < imported.sets.size(); ++i) write_contours(fmt::format("{}.json", i), imported.sets[i]);
-    return {{"sets", imported.sets.size()},
-            {"notes", imported.notes},
-            {"frame", imported.frame_of_reference_uid},
-            {"patient", imported.patient}};
+    return {{"sets", imported.sets.size()}, {"notes", imported.notes}, {"frame", imported.frame_of_reference_uid}};
 }
 
 json error_json(ErrorKind kind, std::string_view sentence) {
@@ -73,7 +70,6 @@ Imported result_in(const fs::path& folder, int status, const Work& work) {
     }
     imported.notes = result.at("notes").get<std::vector<std::string>>();
     imported.frame_of_reference_uid = result.at("frame").get<std::string>();
-    imported.patient = result.at("patient").get<std::string>();
     return imported;
 }
 

@@ -37,7 +37,6 @@ struct Imported {
     std::vector<ContourSet> sets;          ///< one for each structure of the file, none of them empty
     std::vector<std::string> notes;        ///< how the file was read, for the user to see
     std::string frame_of_reference_uid{};  ///< "" when none is named
-    std::string patient{};                 ///< whom a DICOM file is of, for people; "" where it does not say
 };
 
 /// What the file holds, read by this program in a process of its own, with limits on memory and time: a file that crashes a

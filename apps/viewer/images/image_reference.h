@@ -5,9 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 
-#include "kontur/base/error.h"
 #include "kontur/io/images/read_image_options.h"
 
 namespace kontur::viewer {
@@ -29,16 +27,6 @@ struct ImageReference {
     ImageChoice choice{};
 
     friend bool operator==(const ImageReference&, const ImageReference&) = default;
-};
-
-/// A project's image is not where it was.
-class ImageMoved : public Error {
-public:
-    ImageMoved(const std::string& sentence, std::string image) : Error(ErrorKind::io, sentence), image_(std::move(image)) {}
-    const std::string& image() const { return image_; }
-
-private:
-    std::string image_;
 };
 
 // As requests and project files have them: members `series`, `volume`, `frame`, `prefer`, beside a reference's `path` and

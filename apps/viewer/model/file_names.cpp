@@ -12,8 +12,7 @@ std::string plain_name(const std::string& name) {
     for (const char c : name) {
         const bool is_plain =
             (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-        if (is_plain) plain += c;
-        else if (!plain.ends_with('_')) plain += '_';
+        plain += is_plain ? c : '_';
     }
     return plain.empty() ? "structure" : plain;
 }

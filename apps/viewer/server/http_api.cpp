@@ -19,7 +19,6 @@
 #include "viewer/server/gzip.h"
 #include "viewer/server/page.h"
 #include "viewer/server/start_api.h"
-#include "viewer/store/places.h"
 
 namespace kontur::viewer {
 namespace {
@@ -80,8 +79,6 @@ HttpReply guarded(Make make) {
         return choice_reply(error, {{"transforms", true}});
     } catch (const StructureRemoved&) {
         return nothing();
-    } catch (const PathMissing& error) {
-        return error_reply(404, std::string(name(error.kind())), error.what());
     } catch (const Error& error) {
         return error_reply(status_of(error.kind()), std::string(name(error.kind())), error.what());
     } catch (const std::bad_alloc&) {
@@ -286,7 +283,8 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     Upload upload{.trace = trace_request(target), .anyway = anyway, .file = file};
     ImportReply reply;
     if (target.path == "/api/import/near") {
-        reply = workspace_.session(request.opening)->import_near(target.parameter("file").value_or(""), upload, stop);
+        reply = workspace_.session(request.opening)
+                    ->import_near(target.parameter("file").value_or(""), upload, stop);
     } else if (target.path == "/api/import/contours") {
         upload.extension = known_extension(file, kContourEndings);
         reply = workspace_.session(request.opening)->import(request.body, upload, stop);

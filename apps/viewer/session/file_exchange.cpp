@@ -39,28 +39,9 @@ bool is_one_of(const std::string& name, const Names& names) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Of an image's file.
-std::string without_image_ending(const std::string& file) {
-    for (const char* ending : kMaskEndings)
-        if (lower_case(file).ends_with(ending)) return file.substr(0, file.size() - std::string_view(ending).size());
-    return file;
-}
-
-/// Whose image it is, and which: "Doe_Jane_Thorax_2mm" of DICOM, "scan17" of scan17.nii.gz.
-std::string name_of_image(const SessionState& s) {
-    const DicomIdentity& of = s.image.identity;
-    const std::string patient = of.patient_name.empty() ? of.patient_id : of.patient_name;
-    const std::string series = of.series_description.empty() ? of.series_number : of.series_description;
-    if (patient.empty() && series.empty()) return plain_name(without_image_ending(s.image.title));
-    if (patient.empty() || series.empty()) return plain_name(patient.empty() ? series : patient);
-    return plain_name(fmt::format("{} {}", patient, series));
-}
-
-/// "scan17_Liver.nii.gz" for a mask of the liver.
-std::string file_name(const SessionState& s, const std::string& of, const std::string& kind) {
-    const std::string ending = kind.substr(kind.find('.'));
-    if (of.empty()) return fmt::format("{}{}", name_of_image(s), ending);
-    return fmt::format("{}_{}{}", name_of_image(s), plain_name(of), ending);
+/// "liver.nii.gz" for a mask of the liver.
+std::string file_name(const std::string& structure, const std::string& kind) {
+    return plain_name(structure) + kind.substr(kind.find('.'));
 }
 
 void write_mask_file(const fs::path& path, const FittedStructure& one) {
@@ -108,12 +89,12 @@ Download exported(SessionState& s, const std::string& name, std::optional<Id> st
     if (name == "project.kontur") {
         const std::scoped_lock lock(s.mutex);
         s.project.copy_to(path);
-        download.file_name = file_name(s, "", name);
+        download.file_name = file_name(s.project.path().stem().string(), name);
     } else if (is_export_of_all(name)) {
         const ExportFits::Fits all = s.fits.all(s.state(), line.work(stop));
         for (const std::string& note : write_structures(path, name, *all, s.image.series, line.work(stop)))
             s.pages.notice("info", note);
-        download.file_name = fmt::format("{}_{}", name_of_image(s), name);
+        download.file_name = plain_name(s.project.path().stem().string()) + "_" + name;
     } else {
         if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
         const auto [now, image] = [&] {
@@ -128,7 +109,7 @@ Download exported(SessionState& s, const std::string& name, std::optional<Id> st
         else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
         else if (name == "picture.png") write_picture(path, *made(), *s.image.voxels);
         else throw Error(ErrorKind::unsupported, "there is no export of this name");
-        download.file_name = file_name(s, chosen.name, name);
+        download.file_name = file_name(chosen.name, name);
     }
     download.bytes = read_bytes(path);
     return download;
@@ -142,8 +123,8 @@ ImportReply import(SessionState& s, const std::string& bytes, const Upload& uplo
     for (ContourSet& set : imported.sets)
         if (set.name.empty()) set.name = without_ending(upload.file, upload.extension);
     if (!upload.anyway) {
-        auto doubts = import_doubts(imported.sets, {imported.frame_of_reference_uid, imported.patient}, s.image.voxels->grid,
-                                    {s.image.frame_of_reference_uid, patient_words(s.image.identity)});
+        auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, s.image.voxels->grid,
+                                    s.image.frame_of_reference_uid);
         if (!doubts.empty()) return {{}, std::move(doubts), {}};
     }
     const bool is_mask = upload.content == Upload::Content::mask;

@@ -11,7 +11,6 @@
 #include "viewer/model/model_json.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/events.h"
-#include "viewer/surfaces/clipped_volume.h"
 
 // Where to draw next, and what is proposed there.
 
@@ -109,7 +108,6 @@ SurfaceEvidence evidence_of(const SessionState& s, const Surface& surface) {
     SurfaceEvidence evidence = *surface.evidence;
     const Vec3 spacing = s.image.voxels->grid.spacing_mm();
     evidence.voxel_mm = std::min({spacing.x, spacing.y, spacing.z});
-    evidence.volume_mm3 = volume_within_mm3(*surface.mesh, s.image.voxels->grid);
     return evidence;
 }
 

@@ -10,7 +10,6 @@
 #include "kontur/base/error.h"
 #include "viewer/model/file_names.h"
 #include "viewer/model/model_json.h"
-#include "viewer/model/names.h"
 #include "viewer/model/single_points.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/history.h"
@@ -26,15 +25,12 @@ using nlohmann::json;
 constexpr std::size_t kLongestName = 100;                ///< of imports
 constexpr std::size_t kMostPointsOfProject = 2'000'000;  ///< of imports: a page is told all of them at once
 
-/// The first six are told apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones
-/// left out). Each of the others lies as far as it can from those before it in OKLab (Ottosson 2020), none of them dark.
-constexpr std::array kColors{"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#d55e00", "#cc79a7", "#8040ff", "#ff20ff",
-                             "#20ff20", "#20ffe0", "#ffc0ff", "#c020a0", "#80c020", "#ff2060", "#2080ff", "#a0c0a0",
-                             "#ffe0c0", "#4080a0", "#c080ff", "#808020", "#8060c0", "#ffa0a0", "#a0e0ff", "#a06060"};
+/// PageJson apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).
+constexpr std::array kColors{"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#d55e00", "#cc79a7"};
 
 /// A file's name for a structure: whole characters of UTF-8.
 std::string name_from(const std::string& text) {
-    std::string name = plain_text(parsed(to_text(text)).get<std::string>());
+    std::string name = parsed(to_text(text)).get<std::string>();
     if (name.size() <= kLongestName) return name;
     std::size_t end = kLongestName;
     while (end > 0 && (name[end] & 0xc0) == 0x80) --end;
@@ -69,7 +65,6 @@ std::optional<Structure> placeholder(const State& state) {
 json add_structure(SessionState& s, const Members& m) {
     Structure structure;
     structure.name = m.has("name") ? m.text("name", kMostNameBytes) : free_name(s.project.state());
-    check_name(structure.name);
     structure.color = m.has("color") ? m.color("color") : next_color(s.project.state());
     structure.id = s.project.new_id();
     commit(s, {"Add " + structure.name, {{structure.id, {}, structure}}, {}});
@@ -80,7 +75,6 @@ json set_structure(SessionState& s, const Members& m) {
     const Structure before = structure_of(s.project.state(), m.id("id"));
     Structure after = before;
     if (m.has("name")) after.name = m.text("name", kMostNameBytes);
-    if (m.has("name")) check_name(after.name);
     if (m.has("color")) after.color = m.color("color");
     after.visible = m.flag_or("visible", after.visible);
     if (m.has("empty_planes")) after.empty_planes = m.planes("empty_planes");
@@ -93,22 +87,6 @@ json set_structure(SessionState& s, const Members& m) {
     if (after.name != before.name) label = "Rename " + before.name;
     commit(s, {label, {{after.id, before, after}}, {}});
     return {{"structure", to_json(after)}};
-}
-
-/// This one is seen and no other; where that is so already, all are.
-json show_only(SessionState& s, const Members& m) {
-    const Structure chosen = structure_of(s.project.state(), m.id("id"));
-    const auto& all = s.project.state().structures;
-    const bool is_alone =
-        std::ranges::all_of(all, [&](const auto& one) { return one.second.visible == (one.first == chosen.id); });
-    Commit step{is_alone ? "Show all structures" : "Show only " + chosen.name, {}, {}};
-    for (const auto& [id, before] : all) {
-        Structure after = before;
-        after.visible = is_alone || id == chosen.id;
-        if (after != before) step.structures.push_back({id, before, after});
-    }
-    commit(s, step);
-    return json::object();
 }
 
 json remove_structure(SessionState& s, const Members& m) {
@@ -157,10 +135,8 @@ Commit new_structures(SessionState& s, const std::string& label, const std::vect
 }  // namespace
 
 Calls structure_calls() {
-    return {{"structure.add", {add_structure}},
-            {"structure.set", {set_structure}},
-            {"structure.show_only", {show_only}},
-            {"structure.remove", {remove_structure}}};
+    return {
+        {"structure.add", {add_structure}}, {"structure.set", {set_structure}}, {"structure.remove", {remove_structure}}};
 }
 
 std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets) {

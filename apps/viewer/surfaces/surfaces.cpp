@@ -11,7 +11,6 @@
 #include "kontur/sampling/sample_surface.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/view/outline.h"
-#include "viewer/model/stage_words.h"
 
 namespace kontur::viewer {
 namespace {
@@ -335,7 +334,7 @@ void Surfaces::show_progress(Id structure, std::uint64_t edit, const EditorUpdat
         if (edit <= follower.edits_before || (follower.stage == update.stage && follower.tenths == tenths)) return;
         follower.stage = update.stage;
         follower.tenths = tenths;
-        text = fmt::format("{}: {}", follower.tasks.at(edit).set.name, words_of_stage(update.stage));
+        text = fmt::format("{}: {}", follower.tasks.at(edit).set.name, update.stage);
     }
     listener_.status(text, tenths / 10.0);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Navigation } from "../model/navigation";
-import type { Opacities } from "../model/opacities";
 import type { Project } from "../model/project";
 import type { Theme } from "../model/theme";
 import type { Http } from "../net/http";
@@ -18,7 +17,7 @@ import { PLANE_COLORS } from "../model/palette";
 import type { Editor } from "../tools/editor";
 import type { SinglePoint } from "../tools/single_points";
 import { BAND_STOPS, bandColors, bandScale, DISTANCE_STOPS, distanceColors } from "./band";
-import { OrientationCube, SIDES, type ViewAxes } from "./cube";
+import { OrientationCube, SIDES } from "./cube";
 import type { Scene, ScenePoint } from "./scene";
 import { SurfaceInput } from "./surface_input";
 
@@ -26,7 +25,6 @@ export interface SurfaceViewServices {
   navigation: Navigation;
   project: Project;
   theme: Theme;
-  opacities: Opacities;
   editor: Editor;
   http: Http;
   failed(error: unknown): void;
@@ -101,11 +99,6 @@ export class SurfaceView {
     );
     this.cube.element.hidden = true;
     new ResizeObserver(() => this.resized()).observe(this.element);
-  }
-
-  /** How the cube lies, and where; null where there is no 3D view. */
-  cubePlace(): { axes: ViewAxes; box: DOMRect } | null {
-    return this.scene && !this.cube.element.hidden ? { axes: this.scene.axes, box: this.cube.element.getBoundingClientRect() } : null;
   }
 
   /** For a picture that is taken in this very task. */
@@ -193,9 +186,8 @@ export class SurfaceView {
   }
 
   restyle(): void {
-    const { project, opacities } = this.services;
-    for (const { id, color, visible } of project.structures.values())
-      this.scene?.style(id, color, visible, id === this.compared?.other ? COMPARED_WITH_OPACITY : this.opacity * opacities.of(id));
+    for (const { id, color, visible } of this.services.project.structures.values())
+      this.scene?.style(id, color, visible, id === this.compared?.other ? COMPARED_WITH_OPACITY : this.opacity);
   }
 
   private hasSurface(structure: number): boolean {

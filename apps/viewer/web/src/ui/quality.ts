@@ -2,7 +2,6 @@
 import { coincide } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import { lengthText } from "../model/lengths";
-import { volumeText } from "../model/volumes";
 import type { Navigation } from "../model/navigation";
 import type { Maker } from "../net/calls";
 import type { Conflict, Contour, NearLines, Surface } from "../net/protocol";
@@ -13,7 +12,6 @@ import { ICONS } from "../dom/icons";
 import { piece, type Piece } from "../dom/pieces";
 
 const SAME_PLANE_MM = 0.01;
-const RIGHT_LINES = "The band and the expected Dice are of what lies between the lines. Lines that miss the border are not found out by them.";
 
 /** What is done about what is seen. */
 export interface QualityServices {
@@ -42,11 +40,10 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   }
   const entries: Piece[] = [];
   const guess = depthGuess(contours);
-  if (surface.volume_ml !== undefined) entries.push(figure(guess ? "Volume (a guess)" : "Volume", volumeText(surface.volume_ml), guess !== null));
+  if (surface.volume_ml !== undefined) entries.push(figure(guess ? "Volume (a guess)" : "Volume", `${volume(surface.volume_ml)} ml`, guess !== null));
   if (guess) entries.push(piece("p", { class: "warning-text", "data-test": "depth-guess" }, guess));
-  entries.push(...troubles(surface, contours, services));
   if (surface.uncertainty) {
-    entries.push(piece("p", { class: "certainty", "data-test": "certainty", title: RIGHT_LINES }, certaintyText(surface.uncertainty)));
+    entries.push(piece("p", { class: "certainty", "data-test": "certainty" }, surface.uncertainty.text));
     entries.push(
       buttonPiece({
         label: "Where to draw next",
@@ -88,7 +85,7 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
       ),
     );
   }
-  return entries;
+  return [...entries, ...troubles(surface, contours, services)];
 }
 
 function troubles({ conflicts = [], warnings = [], sides = [], near_lines = [] }: Surface, contours: Contour[], services: QualityServices): Piece[] {
@@ -164,15 +161,14 @@ function place(label: string, title: string, kind: "residual" | "conflict" | "ne
 
 const asSentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
 
+const volume = (ml: number): string => (ml >= 100 ? ml.toFixed(0) : ml.toPrecision(3));
+
 /** What no line says of the object that these contours make; null where they say enough. */
 function depthGuess(contours: readonly Contour[]): string | null {
   const [first] = contours;
   if (!first || !contours.every(({ plane }) => coincide(plane, first.plane, SAME_PLANE_MM))) return null;
   return `${contours.length === 1 ? "One contour" : "All contours lie in one plane"}: the depth is a guess. Draw another one across, or on another slice.`;
 }
-
-/** It says how well lines are followed, not whether they are on the border. */
-const certaintyText = ({ known, text }: { known: boolean; text: string }): string => (known ? `If the lines are right: ${text}` : text);
 
 const figure = (label: string, value: string, isGuess = false): Piece =>
   piece("div", { class: isGuess ? "figure guess" : "figure" }, piece("span", {}, label), piece("strong", {}, value));

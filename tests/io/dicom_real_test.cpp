@@ -84,10 +84,10 @@ TEST(DicomReal, MissingSlicesAreNamed) {
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::unsupported);
-        EXPECT_TRUE(std::string_view(error.what())
-                        .ends_with("slices are missing between z = 358.302 and 364.302, 379.302 and 388.302, 403.302 and "
-                                   "409.302 mm: 4 of them at the "
-                                   "usual spacing of 3 mm"))
+        EXPECT_NE(std::string_view(error.what())
+                      .find("slices are missing between z = 358.302 and 364.302, 379.302 and 388.302, 403.302 and "
+                            "409.302 mm: 4 of them at the usual spacing of 3 mm; "),
+                  std::string_view::npos)
             << error.what();
     }
 }

@@ -295,10 +295,9 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     bind.option("-o,--output", c.output, "FILE",
                 "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
         ->required();
-    CLI::Option* name = bind.option("--name", c.name, "NAME", "The structure's name");
+    bind.option("--name", c.name, "NAME", "The structure's name");
     add_holes(*bind.sub, c.holes);
-    CLI::Option* label = bind.option("--label", c.label, "N", "The label to cut; needed when there are several");
-    bind.flag("--all-labels", c.all_labels, "Cut all labels, into one RTSTRUCT (.dcm)")->excludes(label)->excludes(name);
+    bind.option("--label", c.label, "N", "The label to cut; needed when there are several");
     bind.defaulted("--step-mm", c.options.step_mm, "MM", "Sampling distance on a plane; 0: half the smallest spacing");
     bind.defaulted("--tolerance-mm", c.options.tolerance_mm, "MM", "How far dropped points may lie off the contour");
     bind.defaulted("--min-area-mm2", c.options.min_area_mm2, "MM2", "Smaller contours are dropped");
@@ -429,8 +428,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     ConvertCommand& c = *bind.command;
     bind.word("IN", c.input.path, "Image, DICOM folder, contours, structure set or mesh");
     bind.word("OUT", c.output, "File to write; its name decides the format");
-    bind.option("--image", c.image, "FILE",
-                "DICOM folder that an RTSTRUCT or SEG (.dcm) refers to; or image on whose grid a label map is written");
+    bind.option("--image", c.image, "DIR", "DICOM folder of the images that an RTSTRUCT or SEG (.dcm) refers to");
     bind.option("--roi", c.contours.roi, "NAME", "Which structure of a structure set, by name or number");
     bind.option("--label", c.label, "N", "Of a label map or segmentation only this label");
     bind.option("--add", c.more, "MASK", "One more mask for a SEG, as a segment that may overlap others; again for more")

@@ -85,7 +85,6 @@ struct EndedEarly : std::runtime_error {
 struct TraceCommand {
     std::filesystem::path mask;
     std::optional<std::int64_t> label;
-    bool all_labels = false;  ///< each becomes a ROI of an RTSTRUCT
     ReadImageOptions read;
     std::filesystem::path planes;  ///< empty: the slices of `image` cut; without one the mask's own
     ImageInput image;
@@ -165,7 +164,7 @@ struct ConvertCommand {
     std::vector<std::filesystem::path> more;  ///< masks that become further segments of a DICOM SEG
     std::optional<std::int64_t> label;        ///< of a label map or segmentation only this one
     ReadContoursOptions contours;
-    std::filesystem::path image;  ///< DICOM series that DICOM output refers to; of other label maps the grid to write
+    std::filesystem::path image;  ///< DICOM series that DICOM output refers to
     std::filesystem::path output;
     std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
 };

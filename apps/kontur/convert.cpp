@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -13,7 +12,6 @@
 #include "kontur/base/error.h"
 #include "kontur/io/image.h"
 #include "kontur/io/meshes/mesh.h"
-#include "labels_on_grid.h"
 #include "outputs.h"
 #include "structures.h"
 
@@ -56,7 +54,6 @@ FileKind check_kinds(const ConvertCommand& command) {
 Provenance provenance_of(const ConvertCommand& command, const Work& work) {
     std::vector<std::pair<std::string, fs::path>> inputs{{"source", command.input.path}};
     for (const fs::path& path : command.more) inputs.emplace_back(fmt::format("source_{}", inputs.size() + 1), path);
-    if (!is_dicom_name(command.output)) inputs.emplace_back("image", command.image);
     std::string options = command.contours.roi ? fmt::format("roi={}", *command.contours.roi) : "";
     if (command.label) options = fmt::format("label={}", *command.label);
     return made_by("convert", inputs, options, work);
@@ -76,26 +73,6 @@ Structures structures_of(const ConvertCommand& command, Console& console) {
     return all;
 }
 
-/// In ml, of what is not 0.
-double volume_ml(const Image& labels) {
-    double voxels = 0;
-    for (const auto& [label, count] : count_labels(labels)) voxels += static_cast<double>(count);
-    return voxels * labels.grid.voxel_volume_mm3() / 1000;
-}
-
-/// Says what the nearest voxels make of the volume, where that is another one.
-Image on_grid_of(const Image& labels, const ImageInput& source, const ImageInput& image, Console& console) {
-    check_labels(labels, source);
-    ReadImageOptions read = image.options;
-    read.frame.reset();  // chosen of the labels
-    Image moved = labels_on_grid(labels, read_grid(image.path, read, console.work()));
-    const double before = volume_ml(labels), after = volume_ml(moved);
-    if (std::abs(before - after) > 1e-6 * before)
-        console.warn(fmt::format("on the grid of {} the labels have {:.4g} ml in place of {:.4g} ml", image.path.string(),
-                                 after, before));
-    return moved;
-}
-
 void convert_image(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
     const ImageInput input{command.input.path, console.noting(command.input.options)};
     const ImageInput images{command.image, console.noting(command.input.options)};
@@ -103,11 +80,6 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
         for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.input.path), images))
             console.warn(note);
     const bool by_itself = !command.more.empty() || (!command.label && may_overlap(input));
-    if (by_itself && !command.image.empty() && !is_dicom_name(output))
-        throw Error(ErrorKind::unsupported,
-                    fmt::format("segments of {} overlap, and --image moves one label map at a time to its grid; choose one "
-                                "with --label",
-                                command.input.path.string()));
     if (by_itself && has_room_for_overlap(output))
         return console.note(write_structures(output, structures_of(command, console), images, made, console.work()));
     if (by_itself && !is_dicom_seg(input.path))  // of which the reader says which
@@ -115,12 +87,10 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
                     fmt::format("segments of {} overlap, and {} has room for one in a voxel; write a SEG (.dcm) or "
                                 ".seg.nrrd, or choose one with --label",
                                 command.input.path.string(), command.output.string()));
-    const bool onto_grid = !command.image.empty() && !is_dicom_name(output);
-    const bool as_it_is = !command.label && !has_room_for_overlap(output) && !onto_grid;
+    const bool as_it_is = !command.label && !has_room_for_overlap(output);
     const Image image =
         as_it_is ? read_image(input.path, input.options, console.work()) : read_labels(input, command.label, console.work());
-    console.note(write_image(output, onto_grid ? on_grid_of(image, input, images, console) : image, input, images, made,
-                             console.work()));
+    console.note(write_image(output, image, input, images, made, console.work()));
 }
 
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
@@ -147,8 +117,7 @@ void check_options(const ConvertCommand& command, FileKind kind) {
     const ReadImageOptions& read = command.input.options;
     const bool is_dicom = is_dicom_name(command.output);
     check_holes(command.holes, is_dicom && kind == FileKind::contours);
-    if (!command.image.empty() && !is_dicom && kind != FileKind::image)
-        refuse("--image is for DICOM (.dcm), which refers to images, and for label maps, which get its grid");
+    if (!command.image.empty() && !is_dicom) refuse("--image is for DICOM (.dcm), which refers to images");
     if (command.contours.roi && kind != FileKind::contours) refuse("--roi chooses from a structure set");
     if ((read.frame || read.prefer || read.allow_missing_geometry) && kind != FileKind::image)
         refuse("--frame, --prefer and --allow-missing-geometry are for images");

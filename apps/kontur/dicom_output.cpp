@@ -85,17 +85,6 @@ std::vector<std::string> write_contours(const fs::path& path, const ContourSet& 
     return write_rtstruct(path, {"kontur", {roi}}, series_of(images), options);
 }
 
-std::vector<std::string> write_contours_of_all(const fs::path& path, const std::vector<ContourSet>& sets,
-                                               const ImageInput& images, const WriteRtstructOptions& options) {
-    StructureSet all{"kontur", {}};
-    for (const ContourSet& set : sets) {
-        Roi& roi = all.rois.emplace_back();
-        roi.name = set.name;
-        roi.contours = set;
-    }
-    return write_rtstruct(path, all, series_of(images), options);
-}
-
 std::vector<std::string> write_mask(const fs::path& path, const Segmentation& result, const StructureAttributes& attributes,
                                     const ImageInput& images, const WriteMaskOptions& options, const Work& work) {
     if (!is_dicom_name(path)) {

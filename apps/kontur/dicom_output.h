@@ -40,10 +40,6 @@ std::vector<std::string> frame_of_reference_notes(const std::string& uid, const 
 std::vector<std::string> write_contours(const std::filesystem::path& path, const ContourSet& set, const ImageInput& images,
                                         const WriteRtstructOptions& options);
 
-/// Writes several structures as one structure set; how they were made is in `options.provenance`.
-std::vector<std::string> write_contours_of_all(const std::filesystem::path& path, const std::vector<ContourSet>& sets,
-                                               const ImageInput& images, const WriteRtstructOptions& options);
-
 /// Writes the mask of a fit in the format of the name; in .dcm with the way it was made and what is said of the structure.
 std::vector<std::string> write_mask(const std::filesystem::path& path, const Segmentation& result,
                                     const StructureAttributes& attributes, const ImageInput& images,

@@ -85,27 +85,6 @@ def test_series_of_results_are_told_apart_by_number_and_description(tmp_path):
     assert made.SeriesNumber == max(1, int(made.SeriesTime))
 
 
-def test_a_mask_on_part_of_a_grid_is_written_on_the_whole_one(tmp_path):
-    whole = ball_array()
-    image = write_nifti(tmp_path / "image.nii.gz", whole.astype(numpy.int16))
-    part = lps_affine()
-    part[:3, 3] += [5, 4, 3]
-    write_nifti(tmp_path / "part.nii.gz", 3 * whole[5:35, 4:36, 3:38], part)
-    succeed("convert", tmp_path / "part.nii.gz", tmp_path / "out.nii.gz", "--image", image)
-    assert numpy.array_equal(read_nifti(tmp_path / "out.nii.gz"), 3 * whole)
-
-
-def test_what_another_grid_cuts_off_is_a_warning(tmp_path):
-    mask = write_nifti(tmp_path / "mask.nii.gz", ball_array())
-    image = write_nifti(tmp_path / "half.nii.gz", ball_array()[:20])
-    result = kontur("convert", mask, tmp_path / "out.nii.gz", "--image", image)
-    assert result.returncode == 0 and "ml in place of 4.1" in result.stderr, result
-    assert read_nifti(tmp_path / "out.nii.gz").sum() == ball_array()[:20].sum()
-    fractions = write_nifti(tmp_path / "f.nii.gz", ball_array() * numpy.float32(0.5))
-    refused = kontur("convert", fractions, tmp_path / "o.nii.gz", "--image", image)
-    assert refused.returncode == 65 and "f.nii.gz: the image is no label map" in refused.stderr, refused
-
-
 def test_frame_chooses_one_of_a_4d_image(tmp_path):
     array = numpy.stack([ball_array(), 2 * ball_array()], axis=-1)
     path = write_nifti(tmp_path / "4d.nii.gz", array)

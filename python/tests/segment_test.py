@@ -23,7 +23,7 @@ def test_the_kidney(case, kidney):
     assert report.mask_volume_ml == pytest.approx(kidney.mask.volume_ml)
     assert report.mask_components == 1
     assert 0 < report.residual.rms_mm <= report.residual.max_mm < 0.1
-    assert set(report.seconds) == {"prepare", "fit", "voxelize", "polygonize", "measure"}
+    assert set(report.seconds) == {"prepare", "fit", "voxelize", "polygonize", "check", "measure"}
     assert kontur.segment(case.contours, case.grid, quality=0.2).mesh is None
 
 

@@ -173,7 +173,7 @@ def test_a_batch_makes_several_rois_of_a_row_as_segment_does(tmp_path, structure
     numpy.testing.assert_array_equal(read_nifti(tmp_path / "all.nii"), read_nifti(tmp_path / "expected.nii"))
     expected = json.loads((tmp_path / "expected.json").read_text())["structures"]
     both, one = json.loads((tmp_path / "summary.json").read_text())["cases"]
-    assert both["structures"] == [{key: s[key] for key in ("label", "name", "mask", "residual_mm", "uncertainty")} for s in expected]
+    assert both["structures"] == [{key: s[key] for key in ("label", "name", "mask", "residual_mm", "section_check", "uncertainty")} for s in expected]
     assert both["residual_mm"]["max"] == max(s["residual_mm"]["max"] for s in expected)
     assert both["warnings"] == [f"{s['name']}: {warning}" for s in expected for warning in s["warnings"]]
     assert one["mask"] == expected[1]["mask"] and "structures" not in one

@@ -96,7 +96,7 @@ TEST(Segment, ReportSaysWhatWasDone) {
             stages.push_back(stage);
             EXPECT_GE(seconds, 0);
         }
-        EXPECT_EQ(stages, (std::vector<std::string>{"prepare", "fit", "voxelize", "polygonize", "measure"}));
+        EXPECT_EQ(stages, (std::vector<std::string>{"prepare", "fit", "voxelize", "polygonize", "check", "measure"}));
         ASSERT_TRUE(result.mesh);
         EXPECT_TRUE(topology(*result.mesh).closed);
         EXPECT_NEAR(signed_volume_mm3(*result.mesh) / 1000, report.mask_volume_ml, 0.02 * report.mask_volume_ml);

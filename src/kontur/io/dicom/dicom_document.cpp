@@ -111,7 +111,15 @@ std::string description_with_names(const std::string& kind, const std::vector<st
     OFString date;
     DcmDate::getCurrentDate(date);
     const std::string day(date.c_str());
-    return fmt::format("{} {}-{}-{}: {}", kind, day.substr(0, 4), day.substr(4, 2), day.substr(6), fmt::join(names, ", "));
+    constexpr std::size_t kMostBytes = 64;  // the standard counts characters, validators count bytes
+    std::string description =
+        fmt::format("{} {}-{}-{}: {}", kind, day.substr(0, 4), day.substr(4, 2), day.substr(6), fmt::join(names, ", "));
+    if (description.size() > kMostBytes) {
+        std::size_t end = kMostBytes;
+        while ((static_cast<unsigned char>(description[end]) & 0xC0) == 0x80) --end;  // within a character
+        description.resize(end);
+    }
+    return description;
 }
 
 void put_contribution(DcmItem& document, const Provenance& provenance) {

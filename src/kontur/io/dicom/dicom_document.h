@@ -39,7 +39,7 @@ void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
                     const std::string& series_description);
 
-/// "kontur contours 2026-11-28: Liver, Spleen": what a list of results tells them apart by, in at most 64 characters.
+/// "kontur contours 2026-11-28: Liver, Spleen": what a list of results tells them apart by, in at most 64 bytes.
 std::string description_with_names(const std::string& kind, const std::vector<std::string>& names);
 
 /// Says how the object was made: kontur as equipment that contributed to it (PS3.3 C.12.1). Nothing without provenance.

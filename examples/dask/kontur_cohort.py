@@ -10,6 +10,7 @@ so that the same command goes on after a stop.
 """
 import argparse
 import csv
+import hashlib
 import inspect
 import json
 import os
@@ -47,6 +48,20 @@ def read_cases(table):
     return rows
 
 
+def files_sha256(paths):
+    """As the provenance of `kontur segment` has it: of several files, or of those of a folder, of their digests, one per line."""
+    def of(text):
+        return hashlib.sha256("".join(f"{line}\n" for line in text).encode()).hexdigest()
+
+    def of_path(path):
+        if path.is_dir():
+            return of(sorted(of_path(file) for file in path.iterdir() if file.is_file()))
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+
+    digests = [of_path(path) for path in paths]
+    return digests[0] if len(digests) == 1 else of(digests)
+
+
 def segment_case(row, folder, threads):
     """Makes one case, as `kontur segment` does: the same bytes. Returns what the summary says of it."""
     folder = pathlib.Path(folder)
@@ -55,10 +70,10 @@ def segment_case(row, folder, threads):
     contours = kontur.read_contours(files, roi=row.get("roi"), on_note=notes.append)
     if "name" in row:
         contours = kontur.ContourSet(contours, row["name"], contours.interior, contours.exterior, contours.surface, contours.empty_planes)
-    digests = {"contour_files_sha256": kontur.files_sha256(files)}
+    digests = {"contour_files_sha256": files_sha256(files)}
     if "image" in row:
         grid = kontur.read_grid(folder / row["image"], on_note=notes.append)
-        digests["image_sha256"] = kontur.files_sha256([folder / row["image"]])
+        digests["image_sha256"] = files_sha256([folder / row["image"]])
     else:
         spacing = [float(word) for word in row["spacing_mm"].split(",")]
         grid = kontur.grid_around(contours.bounding_box, spacing * (3 // len(spacing)), float(row.get("margin_mm", 10)))

@@ -211,7 +211,8 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
     append_boundary(fitted, set.contours.size(), corners, prepared);
-    if (options.bounds) leave_out_inner_lines(planes, planes.tolerance_mm, prepared.points);
+    // Chords of fewer points lie within the region itself; that makes no line of theirs an inner one.
+    if (options.bounds && options.quality == 1) leave_out_inner_lines(planes, planes.tolerance_mm, prepared.points);
     if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, work);
     append_limits(planes, options, work, prepared);
     find_extents(extents, work, prepared);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/contour_sets.h"
+#include "support/polygons.h"
 
 namespace kontur {
 namespace {
@@ -43,6 +46,35 @@ TEST(Prepare, ReducesAndSubdividesBeforeItOrients) {
     for (Contour& contour : set.contours) contour.points.resize(12);  // the other 8 of 20 leave a gap
     EXPECT_GT(prepare(set, {.least_segments = 0}).points.size(), 36u + 6u);
     EXPECT_GE(prepare(set).points.size(), 3u * 40u);
+}
+
+TEST(Prepare, ReducedLinesAreBordersWhereTheDrawnOnesAre) {
+    ContourSet circles = test::three_circles();
+    const PreparedContours apart = prepare(circles, {.quality = 0.3});
+    for (const BoundaryPoint& point : apart.points) EXPECT_TRUE(point.on_ring && point.inplane_normal != Vec3{});
+
+    const auto square = [](double left) {
+        std::vector<test::Point2> points;
+        for (int i = 0; i < 40; ++i) {
+            const double along = 20 * (i % 10 / 10.0);
+            const int side = i / 10;
+            points.push_back({left + (side == 0   ? along
+                                      : side == 1 ? 20
+                                      : side == 2 ? 20 - along
+                                                  : 0),
+                              side == 0   ? 0
+                              : side == 1 ? along
+                              : side == 2 ? 20
+                                          : 20 - along});
+        }
+        return test::contour_in(Plane{}, points);
+    };
+    ContourSet touching;
+    touching.contours = {square(0), square(20)};
+    for (const double quality : {1.0, 0.4})
+        for (const BoundaryPoint& point : prepare(touching, {.quality = quality}).points)
+            EXPECT_FALSE(std::abs(point.position.x - 20) < 0.1 && std::abs(point.position.y - 10) < 8)
+                << "quality " << quality << ", y = " << point.position.y;
 }
 
 TEST(Prepare, FindsBoundsUnlessToldNotTo) {

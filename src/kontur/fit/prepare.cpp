@@ -211,8 +211,10 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
     append_boundary(fitted, set.contours.size(), corners, prepared);
-    // Chords of fewer points lie within the region itself; that makes no line of theirs an inner one.
-    if (options.bounds && options.quality == 1) leave_out_inner_lines(planes, planes.tolerance_mm, prepared.points);
+    if (options.bounds)  // by the sections of the lines that the points lie on: chords of fewer points run within the drawn
+                         // ones
+        leave_out_inner_lines(options.quality < 1 ? DrawnPlanes(reduced, drawing.ball) : planes, planes.tolerance_mm,
+                              prepared.points);
     if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, work);
     append_limits(planes, options, work, prepared);
     find_extents(extents, work, prepared);

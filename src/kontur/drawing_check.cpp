@@ -89,10 +89,9 @@ double least_width_mm(const ContourSet& contours) {
     double least = std::numeric_limits<double>::infinity();
     for (const Contour& contour : contours.contours) {
         if (!contour.closed) continue;
-        double length = 0;
+        const double length = line_length(contour.points, true);
         Polygon2 outline;
         for (const Vec3& p : contour.points) outline.push_back(contour.plane.to_uv(p));
-        for_each_edge(contour.points, [&](const Vec3& a, const Vec3& b) { length += distance(a, b); });
         if (length > 0) least = std::min(least, 2 * area(outline) / length);
     }
     return least;

@@ -27,36 +27,17 @@ Outline outline_along(const SectionAxes& axes, const Polygon2& polygon) {
     return outline;
 }
 
-/// The length of the rows inside of a line times their distance. An edge is asked in the rows that it spans alone.
+/// The length of the rows inside of a line times their distance.
 double area_by_rows(const Polygon2& line) {
     constexpr int kRows = 512;
     Box2 box;
     for (const Point2& p : line) box.extend(p);
     const double row_mm = (box.high[1] - box.low[1]) / kRows;
     if (!(row_mm > 0)) return 0;
-    std::vector<std::vector<double>> crossings(kRows);
-    const auto first_above = [&](double y) {  // of the rows' middles
-        return static_cast<int>(std::clamp(std::ceil((y - box.low[1]) / row_mm - 0.5), 0.0, static_cast<double>(kRows)));
-    };
-    for_each_edge(line, [&](const Point2& a, const Point2& b) {
-        const auto [low, high] = std::minmax(a[1], b[1]);
-        for (int row = first_above(low), end = first_above(high); row < end; ++row) {
-            const double y = box.low[1] + (row + 0.5) * row_mm;
-            crossings[static_cast<std::size_t>(row)].push_back(std::lerp(a[0], b[0], (y - a[1]) / (b[1] - a[1])));
-        }
-    });
     double inside_mm = 0;
-    for (std::vector<double>& row : crossings) {
-        std::ranges::sort(row);
+    for (const std::vector<double>& row : row_crossings(line, box.low[1] + row_mm / 2, row_mm, kRows))
         for (std::size_t i = 0; i + 1 < row.size(); i += 2) inside_mm += row[i + 1] - row[i];
-    }
     return inside_mm * row_mm;
-}
-
-double length_of(const Polygon2& line) {
-    double length = 0;
-    for_each_edge(line, [&](const Point2& a, const Point2& b) { length += std::hypot(b[0] - a[0], b[1] - a[1]); });
-    return length;
 }
 
 /// Whether that outline is the first but holes that encloses the place.
@@ -128,7 +109,7 @@ std::vector<Probe> probes(const Section& section) {
     for (std::size_t o = 0; o < section.outlines.size(); ++o) {
         outlines.push_back(outline_along(axes, section.outlines[o]));
         whole_area += section.layer(o) * outlines.back().area;
-        length += length_of(section.outlines[o]);
+        length += perimeter(section.outlines[o]);
     }
     whole_area = std::max(whole_area, 0.0);       // holes may lie beside what they are cut from
     const double wall = 2 * whole_area / length;  // a thin ring's thickness, a disc's radius

@@ -10,6 +10,7 @@
 #include "kontur/base/parallel.h"
 #include "kontur/extract/isolines.h"
 #include "kontur/extract/tracker.h"
+#include "kontur/shape/section.h"
 
 namespace kontur {
 namespace {
@@ -92,13 +93,6 @@ Plane orthonormalized(Plane plane) {
     plane.u = normalized(plane.u - dot(plane.u, plane.normal) * plane.normal);
     plane.v = left_handed ? cross(plane.u, plane.normal) : cross(plane.normal, plane.u);
     return plane;
-}
-
-double distance_to_segment(const std::array<double, 2>& p, const std::array<double, 2>& a, const std::array<double, 2>& b) {
-    const double ux = b[0] - a[0], uy = b[1] - a[1], px = p[0] - a[0], py = p[1] - a[1];
-    const double length2 = ux * ux + uy * uy;
-    const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0;
-    return std::hypot(px - t * ux, py - t * uy);
 }
 
 /// Ramer 1972 / Douglas & Peucker 1973 on a closed polygon, split at its first point and the point farthest from it.

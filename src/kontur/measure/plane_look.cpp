@@ -31,12 +31,6 @@ void answer(std::vector<Asked>& asked, const PlaceValues& values) {
     asked.clear();
 }
 
-double distance_to_edge(const Point2& p, const Point2& a, const Point2& b) {
-    const double ux = b[0] - a[0], uy = b[1] - a[1], length2 = ux * ux + uy * uy;
-    const double t = length2 > 0 ? std::clamp(((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / length2, 0.0, 1.0) : 0.0;
-    return std::hypot(p[0] - a[0] - t * ux, p[1] - a[1] - t * uy);
-}
-
 /// Of a block of kStride x kStride pixels between four that have been looked at.
 class Blocks {
 public:
@@ -170,7 +164,7 @@ double PlaneLook::depth_at(const Point2& p, double value) const {
     if (!search_) return value;
     const double depth = search_->clearance(p);
     for (const auto& [a, b] : open_edges_)
-        if (distance_to_edge(p, a, b) <= depth) return 0;
+        if (distance_to_segment(p, a, b) <= depth) return 0;
     return depth;
 }
 

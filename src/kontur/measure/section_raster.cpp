@@ -19,20 +19,9 @@ PixelLattice lattice_around(const Box2& box, double step, double margin) {
 
 /// Adds the outline's layer to the pixels inside of it, row by row.
 void add_layer(const Polygon2& outline, int layer, const PixelLattice& lattice, std::vector<std::int16_t>& layers) {
-    std::vector<std::vector<double>> cuts(static_cast<std::size_t>(lattice.rows));
-    for_each_edge(outline, [&](const Point2& a, const Point2& b) {
-        const Point2 &low = a[1] < b[1] ? a : b, &high = a[1] < b[1] ? b : a;
-        const double first = std::ceil((low[1] - lattice.low[1]) / lattice.step_mm),
-                     last = std::ceil((high[1] - lattice.low[1]) / lattice.step_mm);
-        for (int row = std::max(0, static_cast<int>(first)); row < std::min<double>(last, lattice.rows); ++row) {
-            const double y = lattice.low[1] + lattice.step_mm * row;
-            const double x = low[0] + (y - low[1]) * (high[0] - low[0]) / (high[1] - low[1]);
-            cuts[static_cast<std::size_t>(row)].push_back(x);
-        }
-    });
+    const std::vector<std::vector<double>> crossings = row_crossings(outline, lattice.low[1], lattice.step_mm, lattice.rows);
     for (int row = 0; row < lattice.rows; ++row) {
-        std::vector<double>& here = cuts[static_cast<std::size_t>(row)];
-        std::sort(here.begin(), here.end());
+        const std::vector<double>& here = crossings[static_cast<std::size_t>(row)];
         for (std::size_t n = 0; n + 1 < here.size(); n += 2) {
             const auto column = [&](double x) {
                 return std::clamp(static_cast<int>(std::ceil((x - lattice.low[0]) / lattice.step_mm)), 0, lattice.columns);
@@ -60,11 +49,10 @@ SectionRaster rasterize(const Section& section) {
     constexpr double kOfWidth = 0.4;             // a pixel's, of the mean width of what is enclosed
     SectionRaster raster;
     double length = 0;
-    for (const Polygon2& outline : section.outlines)
-        for_each_edge(outline, [&](const Point2& a, const Point2& b) {
-            raster.box.extend(b);
-            length += std::hypot(b[0] - a[0], b[1] - a[1]);
-        });
+    for (const Polygon2& outline : section.outlines) {
+        for (const Point2& vertex : outline) raster.box.extend(vertex);
+        length += perimeter(outline);
+    }
     raster.extent_mm = std::max(raster.box.high[0] - raster.box.low[0], raster.box.high[1] - raster.box.low[1]);
     if (!(raster.extent_mm > 0)) return raster;
     double step = raster.extent_mm / kFewest;

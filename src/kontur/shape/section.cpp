@@ -67,6 +67,35 @@ double area(const Polygon2& outline) {
     return std::abs(twice) / 2;
 }
 
+double perimeter(const Polygon2& outline) {
+    double length = 0;
+    for_each_edge(outline, [&](const Point2& a, const Point2& b) { length += std::hypot(b[0] - a[0], b[1] - a[1]); });
+    return length;
+}
+
+double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
+    const double ux = b[0] - a[0], uy = b[1] - a[1], px = p[0] - a[0], py = p[1] - a[1];
+    const double length2 = ux * ux + uy * uy;
+    const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0;
+    return std::hypot(px - t * ux, py - t * uy);
+}
+
+std::vector<std::vector<double>> row_crossings(const Polygon2& outline, double first_mm, double step_mm, int rows) {
+    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows));
+    const auto first_above = [&](double y) {
+        return static_cast<std::size_t>(std::clamp(std::ceil((y - first_mm) / step_mm), 0.0, static_cast<double>(rows)));
+    };
+    for_each_edge(outline, [&](const Point2& a, const Point2& b) {
+        const Point2 &low = a[1] < b[1] ? a : b, &high = a[1] < b[1] ? b : a;
+        for (std::size_t row = first_above(low[1]), end = first_above(high[1]); row < end; ++row) {
+            const double y = first_mm + step_mm * static_cast<double>(row);
+            crossings[row].push_back(low[0] + (y - low[1]) * (high[0] - low[0]) / (high[1] - low[1]));
+        }
+    });
+    for (std::vector<double>& row : crossings) std::ranges::sort(row);
+    return crossings;
+}
+
 bool Section::contains(const Point2& p) const {
     int layers = 0;
     for (std::size_t o = 0; o < outlines.size(); ++o)

@@ -13,6 +13,15 @@ namespace kontur {
 
 /// What a closed polygon encloses, mm2.
 double area(const Polygon2& outline);
+/// Length of all its edges, mm.
+double perimeter(const Polygon2& outline);
+/// To the closed segment from a to b.
+double distance_to_segment(const Point2& p, const Point2& a, const Point2& b);
+
+/// Where a closed polygon crosses each of `rows` horizontal lines, from `first_mm` on in steps of `step_mm` > 0: sorted, an
+/// even number in each. An edge is asked in the rows that it spans alone; drawn in both directions it crosses at the same
+/// bits.
+std::vector<std::vector<double>> row_crossings(const Polygon2& outline, double first_mm, double step_mm, int rows);
 
 /// The contours drawn in one plane, as the region that they enclose: where more of them than holes lie around a point; each
 /// by itself by the even-odd rule. So what is drawn twice is there once. In the plane's (u, v), mm.

@@ -107,7 +107,9 @@ void start_document(DcmItem& document, const DicomSeries& images, const char* cl
     put(document, DCM_SoftwareVersions, KONTUR_VERSION);
 }
 
-std::string description_with_names(const std::string& kind, const std::vector<std::string>& names) {
+std::string description_with_names(const std::string& given, const std::string& kind,
+                                   const std::vector<std::string>& names) {
+    if (given != kind) return given;
     OFString date;
     DcmDate::getCurrentDate(date);
     const std::string day(date.c_str());

@@ -39,8 +39,9 @@ void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
                     const std::string& series_description);
 
-/// "kontur contours 2026-11-28: Liver, Spleen": what a list of results tells them apart by, in at most 64 bytes.
-std::string description_with_names(const std::string& kind, const std::vector<std::string>& names);
+/// "kontur contours 2026-11-28: Liver, Spleen": what a list of results tells them apart by, in at most 64
+/// bytes. A given description that is not the default kind stays as it is.
+std::string description_with_names(const std::string& given, const std::string& kind, const std::vector<std::string>& names);
 
 /// Says how the object was made: kontur as equipment that contributed to it (PS3.3 C.12.1). Nothing without provenance.
 void put_contribution(DcmItem& document, const Provenance& provenance);

@@ -329,9 +329,8 @@ std::vector<std::string> write_segments(const std::filesystem::path& path, const
     BitRow bits(checked_bits(grid, segments.size()));
     DcmFileFormat file;
     DcmItem& document = *file.getDataset();
-    const std::string description = options.series_description == WriteDicomSegOptions{}.series_description
-                                        ? dcmtk::description_with_names(options.series_description, names)
-                                        : options.series_description;
+    const std::string description =
+        dcmtk::description_with_names(options.series_description, WriteDicomSegOptions{}.series_description, names);
     dcmtk::start_document(document, images, UID_SegmentationStorage, "SEG", description);
     dcmtk::put_contribution(document, options.provenance);
     SegWriter writer(document, slices);

@@ -244,9 +244,8 @@ std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const
     const std::vector<std::string> names = dcmtk::stored_names(names_of(set.rois), "ROI", notes);
     DcmFileFormat file;
     DcmItem& document = *file.getDataset();
-    const std::string description = options.series_description == WriteRtstructOptions{}.series_description
-                                        ? dcmtk::description_with_names(options.series_description, names)
-                                        : options.series_description;
+    const std::string description =
+        dcmtk::description_with_names(options.series_description, WriteRtstructOptions{}.series_description, names);
     dcmtk::start_document(document, images, UID_RTStructureSetStorage, "RTSTRUCT", description);
     put(document, DCM_StructureSetLabel,
         dcmtk::noted_value(set.label.empty() ? "kontur" : set.label, kMostLabel, "the structure set's label", notes));

@@ -481,7 +481,7 @@ def make_rtstruct(make, work):
     spoilt("no_contours", lambda d: delattr(d, "ROIContourSequence"))
     spoilt("no_rois", lambda d: delattr(d, "StructureSetROISequence"))
     spoilt("same_number_twice", lambda d: setattr(d.StructureSetROISequence[1], "ROINumber", 1))
-    spoilt("unlisted", lambda d: setattr(d.ROIContourSequence[0], "ReferencedROINumber", 999))
+    spoilt("unlisted", lambda d: setattr(d.ROIContourSequence[0], "ReferencedROINumber", 999), refused=False)  # with a note
     spoilt("no_number", lambda d: delattr(d.StructureSetROISequence[0], "ROINumber"))
     spoilt("pairs", lambda d: setattr(contour(d), "ContourData", list(contour(d).ContourData)[:-1]))
     spoilt("no_points", lambda d: setattr(contour(d), "ContourData", []))
@@ -608,7 +608,7 @@ def make_markups(make):
         for key in ("type", "coordinateSystem", "coordinateUnits", "controlPoints"):
             document = markups_document()
             document["markups"][0][key] = value
-            sound = key == "coordinateSystem" and value == 1
+            sound = (key, value) in (("coordinateSystem", 1), ("controlPoints", []))  # a curve without a point is left out
             make.add(f"markups_{key}_{number}", "a.mrk.json", json.dumps(document), words, refused=not sound)
         document = markups_document()
         document["markups"][0]["controlPoints"][0]["position"] = value

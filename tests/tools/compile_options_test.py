@@ -36,7 +36,7 @@ def test_exact_predicates_may_change_the_rounding():
 
 
 @pytest.mark.parametrize("source", ["solve/h2_basis", "solve/h2_interpolation", "solve/pair_sums", "solve/preconditioner",
-                                    "solve/small_cholesky", "function/kernel", "function/split_kernel", "function/stencil"])
+                                    "solve/small_cholesky", "function/kernel_sums", "function/split_kernel", "function/stencil"])
 def test_fast_sums_may_fuse_multiplications_and_additions(source):
     options = options_of(f"{source}.cpp")
     # The last one counts.

@@ -50,9 +50,10 @@ double read_unit_mm(const json& markup) {
     refuse(ErrorKind::unsupported, "the unit is " + quoted(code) + "; mm and um are supported");
 }
 
-bool has_position(const json& control_point) {
-    return text_member(control_point, "positionStatus", "defined") == "defined" && control_point.contains("position");
-}
+/// Others were begun, or are previews of where the pointer is.
+bool is_placed(const json& control_point) { return text_member(control_point, "positionStatus", "defined") == "defined"; }
+
+bool has_position(const json& control_point) { return is_placed(control_point) && control_point.contains("position"); }
 
 struct ControlPoint {
     Vec3 position;  ///< mm, LPS
@@ -134,14 +135,14 @@ bool is_curve(const std::string& type) { return type == "ClosedCurve" || type ==
 
 /// One that was begun, and of which no point was placed.
 bool is_empty_curve(const json& markup) {
-    return is_curve(text_member(markup, "type", "")) && read_control_points(markup).empty();
+    return is_curve(text_member(markup, "type", "")) &&
+           std::ranges::none_of(array_member(markup, "controlPoints"), is_placed);
 }
 
 void append_markup(const json& markup, const ReadMarkupsOptions& options, ContourSet& set) {
     const std::string type = text_member(markup, "type", "");
     if (type == "Fiducial") append_points(markup, set);
-    else if (is_curve(type))
-        set.contours.push_back(read_curve(markup, type == "ClosedCurve", options.plane_tolerance_mm));
+    else if (is_curve(type)) set.contours.push_back(read_curve(markup, type == "ClosedCurve", options.plane_tolerance_mm));
     else
         refuse(ErrorKind::unsupported,
                "is a markup of type \"" + type + "\"; closed and open curves and point lists are supported");

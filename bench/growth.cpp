@@ -51,6 +51,7 @@ Json row(const DenseLiver& liver, int repeat, double peak) {
     const ConstraintSet constraints = constraints_of(liver);
     fmt::print(stderr, "kontur_bench: growth, {} constraints{}\n", constraints.size(), liver.by_hand ? " by hand" : "");
     SolveOptions options;
+    options.smoothing = 0;
     options.tolerance_mm = kTolerance_mm;
     SolveReport report;
     const PeakMemory memory;

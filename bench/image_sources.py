@@ -55,7 +55,7 @@ def scans():
     found["tumour"] = ("07_mr_brain_tumour_brain1/brain1_image.nrrd", "07_mr_brain_tumour_brain1/brain1_label.nrrd", "")
     found["cord"] = ("13_mr_spinal_cord_t2/t2.nii.gz", "13_mr_spinal_cord_t2/t2_seg-manual.nii.gz", "")
     for wall in "endo", "epi":
-        found[f"ventricle_{wall}"] = (CINE + "cine4d_crop.nii.gz", CINE + f"mask_ED_{wall}.nii.gz", "", "18")
+        found[f"ventricle_{wall}"] = (CINE + "cine4d_crop.nii.gz", CINE + f"mask_ED_{wall}.nii.gz", "", "19")
     found |= {f"phantom_{organ}": ("phantom", organ, spacing) for organ, spacing in PHANTOM}
     return dict(sorted(found.items()))
 

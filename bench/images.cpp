@@ -159,14 +159,14 @@ void measure(const Structure& structure, const std::string& kind, int count, boo
     const SegmentOptions options;
     const Drawing drawing = read_drawing(contours, options.fill_rule);
     const StageOptions stages = stage_options(options, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages, kAlone);
+    const PreparedContours prepared = prepare(drawing, stages.prepare, kAlone);
     const double start = cpu_seconds();
     const FittedFunction fitted = fit(prepared, stages.fit, kAlone);
     const double fit_seconds = cpu_seconds() - start;
     const auto mask_of = [&](const ImplicitFunction& function) {
         return fill(
             find_surface(function, structure.truth.grid,
-                         start_points(drawing.contours, prepared, function, stages.prepare.click_margin_mm), {}, kAlone),
+                         start_points(drawing.contours, prepared, function, *stages.prepare.click_margin_mm), {}, kAlone),
             kAlone);
     };
     const std::string without = scores(mask_of(fitted.function), structure.truth);
@@ -181,7 +181,7 @@ void measure(const Structure& structure, const std::string& kind, int count, boo
         if (!gate && (!methods || std::string(methods).find("ungated") == std::string::npos)) continue;
         const double finish_start = cpu_seconds();
         const ImageFit with_image = follow_image(
-            drawing, prepared, fitted, structure.image,
+            {drawing, prepared, fitted}, structure.image,
             [&](const ContourSet& part) { return fit_coarsely(part, stages, kAlone); }, {.fit = stages.fit, .gate = gate},
             kAlone);
         const double seconds = cpu_seconds() - finish_start;

@@ -43,7 +43,7 @@ STRUCTURE_SETS = {
 # Short-axis contours of a left ventricle: (phase, kind) of the contours, and their mask.
 CINE = "10_cine_mr_SC-HF-I-1"
 CINE_CONTOURS = {"ventricle_ED_endo": (18, "endo"), "ventricle_ES_endo": (7, "endo"), "ventricle_ED_epi": (18, "epi")}
-# What structures were drawn on, by the beginning of their names, and its frame where it has several.
+# What structures were drawn on, by the beginning of their names, and its frame, from 1, where it has several.
 IMAGES = {
     "abdomen_": ("01_ct_abdomen_totalseg_3mm/example_ct_sm.nii.gz", None),
     "vertebrae_": ("01_ct_abdomen_totalseg_3mm/example_ct.nii.gz", None),
@@ -55,8 +55,8 @@ IMAGES = {
     "sarcoma_STS_002": ("03_sarcoma_STS_002/CT/image", None),
     "sarcoma_STS_040": ("04_sarcoma_STS_040/CT/image", None),
     "sarcoma_STS_008": ("05_sarcoma_STS_008/CT/image", None),
-    "ventricle_ED": (CINE + "/cine4d_crop.nii.gz", 18),
-    "ventricle_ES": (CINE + "/cine4d_crop.nii.gz", 7),
+    "ventricle_ED": (CINE + "/cine4d_crop.nii.gz", 19),
+    "ventricle_ES": (CINE + "/cine4d_crop.nii.gz", 8),
 }
 
 

@@ -55,28 +55,30 @@ def slopes(value, uv):
     return np.column_stack([(value(uv + step) - value(uv - step)) / (2 * SLOPE_STEP_MM) for step in steps])
 
 
-def on_surface(value, uv):
+def on_surface(value, uv, step_mm=STEP_MM):
     """The places of the surface near points of a plane, by Newton steps in the plane."""
+    most = 0.6 * step_mm
     for _ in range(12):
         slope = slopes(value, uv)
         length = np.linalg.norm(slope, axis=1, keepdims=True)
-        uv = uv - np.clip(value(uv)[:, None] / length, -0.3, 0.3) * slope / length
+        uv = uv - np.clip(value(uv)[:, None] / np.maximum(length, 1e-9), -most, most) * slope / np.maximum(length, 1e-9)
     return uv
 
 
-def closed_lines(body, plane):
+def closed_lines(body, plane, step_mm=STEP_MM, smallest_mm2=SMALLEST_MM2):
     """(line in the plane's coordinates, whether it surrounds a hole) of a body's section; small ones are left out."""
     corners = np.array([[body.bounds[i, 0], body.bounds[j, 1], body.bounds[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
     low, high = plane.to_uv(corners).min(axis=0), plane.to_uv(corners).max(axis=0)
-    u, v = (np.arange(a, b + STEP_MM, STEP_MM) for a, b in zip(low, high))
+    u, v = (np.arange(a, b + step_mm, step_mm) for a, b in zip(low, high))
     uv = np.column_stack([axis.ravel() for axis in np.meshgrid(u, v)])
     values = body.values(plane.from_uv(uv)).reshape(len(v), len(u))
     for line in contourpy.contour_generator(u, v, values).lines(0):
         area = signed_area(line[:-1])
-        if abs(area) >= SMALLEST_MM2:
-            along = line[1] - line[0]
-            left = (line[0] + line[1]) / 2 + 0.05 * np.array([[-along[1], along[0]]]) / np.linalg.norm(along)
-            inside_is_left = body.values(plane.from_uv(left))[0] > 0
+        if abs(area) >= smallest_mm2:
+            along = np.diff(line, axis=0)
+            aside = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
+            left = (line[:-1] + line[1:]) / 2 + 0.1 * step_mm * aside
+            inside_is_left = np.mean(body.values(plane.from_uv(left)) > 0) > 0.5
             yield line[:-1], bool((area > 0) != inside_is_left)
 
 
@@ -88,12 +90,12 @@ def shares(weights, total):
     return counts
 
 
-def sections(body, planes, point_count):
+def sections(body, planes, point_count, step_mm=STEP_MM, smallest_mm2=SMALLEST_MM2):
     """The ContourSet where planes cut a body: `point_count` points altogether, equally spaced, on the surface."""
-    found = [(plane, line, hole) for plane in planes for line, hole in closed_lines(body, plane)]
+    found = [(plane, line, hole) for plane in planes for line, hole in closed_lines(body, plane, step_mm, smallest_mm2)]
     lengths = [np.linalg.norm(np.diff(line, axis=0, append=line[:1]), axis=1).sum() for _, line, _ in found]
     contours = []
     for (plane, line, hole), count in zip(found, shares(lengths, point_count)):
-        uv = on_surface(lambda uv, plane=plane: body.values(plane.from_uv(uv)), resampled(line, count))
+        uv = on_surface(lambda uv, plane=plane: body.values(plane.from_uv(uv)), resampled(line, count), step_mm)
         contours.append(kontur.Contour(plane.from_uv(uv), plane=plane, hole=hole))
     return kontur.ContourSet(contours, name=body.name)

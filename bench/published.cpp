@@ -25,6 +25,7 @@ PreparedContours published_contours(const PhantomCase& phantom, double quality) 
     options.quality = quality;
     options.least_segments = 0;
     options.bounds = false;
+    options.reconcile.conflicts = Conflicts::exact;
     return prepare(phantom.contours, options);
 }
 
@@ -33,7 +34,9 @@ PlaceOptions published_placing() { return {.normal_offset_mm = 1, .merge_distanc
 Segmentation segment_as_published(const PhantomCase& phantom, Solver solver, double quality) {
     FitOptions options;
     options.normals = Normals::in_plane;
-    options.place = published_placing();
+    const PlaceOptions placing = published_placing();
+    options.normal_offset_mm = placing.normal_offset_mm;
+    options.merge_distance_mm = placing.merge_distance_mm;
     options.solve.kernel = Kernel::triharmonic;
     options.solve.solver = solver;
 

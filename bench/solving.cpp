@@ -26,6 +26,8 @@ Json solving(const PhantomCase& phantom, int repeat) {
             SolveOptions options;
             options.kernel = Kernel::triharmonic;
             options.solver = solver;
+            options.smoothing = 0;
+            options.tolerance_mm = 1e-3;
             SolveReport report;
             const Timing timing =
                 measure(repeat, [&] { report = solve(constraints, options, {.threads = threads}).report; });

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drawings of every structure in label maps, for kontur_accuracy: organs that no rule of the method was chosen on.
 
-Usage: bench/structures.py --kontur build/release/bin/kontur --output FOLDER [--slices] [--without STRUCTURE]... NAME=LABELMAP...
+Usage: bench/structures.py --kontur build/release/bin/kontur --output FOLDER [--slices | --cut-off] [--without STRUCTURE]...
+    NAME=LABELMAP...
 
 Every label with at least 300 voxels becomes a structure, NAME_LABEL; with NAME/parts=LABELMAP every connected part of a label
 does, NAME_LABEL_PART, counted from the lowest in the file. Of each: the mask, coarsened until its grid has at most 2.6 million
@@ -12,7 +13,7 @@ be chosen on the latter. FOLDER/structures.csv lists them. The same arguments gi
 
 With --slices the drawings are layers of the truth's voxels along its third axis: one in two, four and eight, as for interpolation
 between slices, and two, three and four in the middle, as somebody begins to draw. Structures that the image cuts off are left
-out: their ends are not the object's.
+out: their ends are not the object's. With --cut-off it is these alone, in planes and layers, and their grids end where the image does.
 """
 import argparse
 import csv
@@ -84,19 +85,22 @@ def coarsened(mask, factors):
     return blocks.mean(axis=(1, 3, 5)) >= 0.5
 
 
-def truth_of(mask, index_to_mm):
-    """The mask within its own grid, coarsened and padded; that grid's affine; and how many voxels became one."""
+def truth_of(mask, index_to_mm, ends_with_image=False):
+    """The mask within its own grid, coarsened and padded; that grid's affine; and how many voxels became one. No margin where the
+    grid `ends_with_image`, which cuts the object off."""
     found = np.argwhere(mask)
     low, high = found.min(axis=0), found.max(axis=0) + 1
     spacing = np.linalg.norm(index_to_mm[:3, :3], axis=0)
     factors = coarsening(high - low, spacing)
     truth = coarsened(mask[tuple(slice(a, b) for a, b in zip(low, high))], factors)
-    margin = margin_voxels((high - low) * spacing, spacing * factors)
+    margin = np.repeat(margin_voxels((high - low) * spacing, spacing * factors)[:, None], 2, axis=1)
+    if ends_with_image:
+        margin[low == 0, 0] = margin[high == mask.shape, 1] = 0
     affine = index_to_mm.copy()
     affine[:3, :3] *= factors
-    first_centre = low + (factors - 1) / 2 - margin * factors
+    first_centre = low + (factors - 1) / 2 - margin[:, 0] * factors
     affine[:3, 3] = index_to_mm[:3, :3] @ first_centre + index_to_mm[:3, 3]
-    return np.pad(truth, [(n, n) for n in margin]), affine, factors
+    return np.pad(truth, margin), affine, factors
 
 
 def plane(origin, normal):
@@ -230,6 +234,7 @@ def main():
     parser.add_argument("--kontur", required=True, type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--output", required=True, type=pathlib.Path)
     parser.add_argument("--slices", action="store_true")
+    parser.add_argument("--cut-off", action="store_true")
     parser.add_argument("--without", action="append", default=[], metavar="STRUCTURE")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
@@ -239,13 +244,13 @@ def main():
         for number, (name, (mask, affine, source)) in enumerate(
                 collect(options.maps, options.without, options.kontur).items(), 1):
             split = "report" if number % 2 else "tune"
-            if options.slices and touches_border(mask):
+            if (options.slices or options.cut_off) and touches_border(mask) != options.cut_off:
                 continue
-            truth, grid, factors = truth_of(mask, affine)
+            truth, grid, factors = truth_of(mask, affine, options.cut_off)
             folder = options.output / split / name
-            if options.slices:
+            if options.slices or options.cut_off:
                 write_layers(folder, truth, grid, options.kontur)
-            else:
+            if not options.slices:
                 write_structure(folder, name, truth, grid, options.kontur)
             volume = truth.sum() * abs(np.linalg.det(grid[:3, :3])) / 1000
             parts = ndimage.label(truth, np.ones((3, 3, 3)))[1]

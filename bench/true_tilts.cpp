@@ -78,7 +78,7 @@ NormalAt blurred_normal(const Mask& mask, double sigma_voxels) {
 TrueTiltsFit segment_with_true_tilts(const ContourSet& contours, const Grid& grid, const NormalAt& normal) {
     const Drawing drawing(contours);
     StageOptions stages = stage_options({}, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages);
+    const PreparedContours prepared = prepare(drawing, stages.prepare);
     stages.fit.rounds = 0;
     stages.fit.start_slopes = true_slopes(normal, prepared.points);
     ImplicitFunction function = fit(prepared, stages.fit).function;
@@ -88,7 +88,7 @@ TrueTiltsFit segment_with_true_tilts(const ContourSet& contours, const Grid& gri
 
 NormalErrors normal_errors(const ContourSet& contours, const Mask& truth, const ImplicitFunction& function) {
     const Drawing drawing(contours);
-    const PreparedContours prepared = prepare(drawing, stage_options({}, drawing.diameter_mm()));
+    const PreparedContours prepared = prepare(drawing);
     const NormalAt normal = blurred_normal(truth, kBlurVoxels), blurred_more = blurred_normal(truth, kMoreBlurVoxels);
     NormalErrors sum;
     double count = 0;

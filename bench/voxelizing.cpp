@@ -14,15 +14,20 @@ struct Run {
     Mask mask;
 };
 
+struct Way {
+    Voxelizer voxelizer;
+    int threads, repeat;
+};
+
 template <typename FindSurface>
-Run run(const PhantomCase& phantom, const SegmentReport& fitted, Voxelizer voxelizer, int threads, int repeat,
-        const FindSurface& find_surface) {
+Run run(const PhantomCase& phantom, const SegmentReport& fitted, const Way& way, const FindSurface& find_surface) {
+    const auto& [voxelizer, threads, repeat] = way;
     std::int64_t evaluations = 0;
     std::size_t cells = 0;
     Mask mask;
     const Timing timing = measure(repeat, [&] {
         const SurfaceLattice surface = find_surface();
-        mask = fill(surface, {.threads = threads});
+        mask = fill(surface, {.threads = way.threads});
         evaluations = surface.evaluations;
         cells = surface.cells.size();
     });
@@ -46,13 +51,13 @@ std::vector<Run> runs_of(const PhantomCase& phantom, const Segmentation& fitted,
     const ImplicitFunction& f = fitted.function;
     std::vector<Run> runs;
     for (const int threads : thread_counts())
-        runs.push_back(run(phantom, fitted.report, Voxelizer::tracked, threads, repeat,
+        runs.push_back(run(phantom, fitted.report, {Voxelizer::tracked, threads, repeat},
                            [&] { return track_surface(f, phantom.grid, starts, {.threads = threads}); }));
     for (const int threads : thread_counts())
-        runs.push_back(run(phantom, fitted.report, Voxelizer::adaptive, threads, repeat,
+        runs.push_back(run(phantom, fitted.report, {Voxelizer::adaptive, threads, repeat},
                            [&] { return track_surface_adaptively(f, phantom.grid, starts, {.threads = threads}); }));
     const int all_threads = thread_counts().back();
-    runs.push_back(run(phantom, fitted.report, Voxelizer::exhaustive, all_threads, 1,
+    runs.push_back(run(phantom, fitted.report, {Voxelizer::exhaustive, all_threads, 1},
                        [&] { return sample_everywhere(f, phantom.grid, {.threads = all_threads}); }));
     return runs;
 }

@@ -35,7 +35,7 @@ def _built_package(build):
     if not (build / "CMakeCache.txt").exists():
         left_out = [f"-DKONTUR_{name}=OFF" for name in ("BUILD_TESTS", "BUILD_BENCH", "BUILD_PAGE", "SHARED")]
         _cmake("-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", *left_out)
-    _cmake("--build", build, "--target", "kontur_python", "--parallel", str(os.cpu_count()))
+    _cmake("--build", build, "--target", "kontur_python_stubs", "--parallel", str(os.cpu_count()))
     return build / "python" / "kontur"
 
 

@@ -117,8 +117,8 @@ std::size_t warning_count(const Facts& facts) { return facts.contains("warnings"
 
 /// The Dice to be expected; 0 where nothing is known.
 double dice_of(const Facts& figures) {
-    const Facts& told = figures.at("uncertainty");
-    return told.value("known", false) ? told.at("expected_dice").value("value", 0.0) : 0;
+    const Facts& sureness = figures.at("uncertainty");
+    return sureness.value("known", false) ? sureness.at("expected_dice").value("value", 0.0) : 0;
 }
 
 /// The largest share of a drawn section that is not as drawn.
@@ -127,18 +127,18 @@ double wrong_share_of(const Facts& figures) { return figures.at("section_check")
 /// What the summary says of a case, from the report that `segment` wrote: of each structure, where it made several.
 Facts figures_of(const Facts& report) {
     Facts facts;
-    for (const char* key : {"mask", "residual_mm", "section_check", "uncertainty", "warnings"})
+    for (const char* key : {"mask", "residual_mm", "section_check", "uncertainty", "derived", "warnings"})
         if (report.contains(key)) facts[key] = report[key];
     if (!report.contains("structures")) return facts;
     Facts structures = Facts::array(), warnings = Facts::array();
     double residual_max_mm = 0;
     for (const Facts& structure : report["structures"]) {
-        Facts& told = structures.emplace_back();
+        Facts& row = structures.emplace_back();
         for (const char* key : {"label", "name", "mask", "residual_mm", "section_check", "uncertainty"})
-            told[key] = structure.at(key);
-        if (!facts.contains("uncertainty") || dice_of(told) < dice_of(facts)) facts["uncertainty"] = told["uncertainty"];
-        if (!facts.contains("section_check") || wrong_share_of(told) > wrong_share_of(facts))
-            facts["section_check"] = told["section_check"];
+            row[key] = structure.at(key);
+        if (!facts.contains("uncertainty") || dice_of(row) < dice_of(facts)) facts["uncertainty"] = row["uncertainty"];
+        if (!facts.contains("section_check") || wrong_share_of(row) > wrong_share_of(facts))
+            facts["section_check"] = row["section_check"];
         residual_max_mm = std::max(residual_max_mm, structure.at("residual_mm").value("max", 0.0));
         for (const Facts& warning : structure.at("warnings"))
             warnings.push_back(fmt::format("{}: {}", structure.at("name").get<std::string>(), warning.get<std::string>()));
@@ -166,7 +166,7 @@ public:
     Batch(const BatchCommand& command, Console& console)
         : command_(command),
           console_(console),
-          cohort_(read_cases(command.table)),
+          cohort_(read_cases(command.table, command.rules)),
           journal_(command.table, command.journal),
           jobs_(command.jobs > 0 ? command.jobs : 1) {
         if (!command.summary.empty()) check_apart(command.summary, cohort_);
@@ -378,7 +378,7 @@ std::string warnings_line(const Facts& summary, const BatchCommand& command, con
 
 void run(const BatchCommand& command, Console& console) {
     if (!command.summary.empty()) check_output(command.summary, std::array{command.table});
-    if (command.count) return console.print(fmt::format("{}\n", read_cases(command.table).cases.size()));
+    if (command.count) return console.print(fmt::format("{}\n", read_cases(command.table, command.rules).cases.size()));
     Batch batch(command, console);
     batch.work();
     const Facts summary = batch.summary();

@@ -83,7 +83,8 @@ void add_option(Case& one, const OptionName& option, const std::string& value) {
     const std::vector<std::string> values = option.name == "roi" ? split(value, ';') : std::vector{value};
     if (values.empty()) refuse(fmt::format("the cell below '{}' names none", option.name));
     for (const std::string& word : values) one.options.push_back(fmt::format("--{}={}", option.name, word));
-    if (option.name == "image") one.inputs.emplace_back(value);
+    if (is_one_of(option.name, {"image", "rules"})) one.inputs.emplace_back(value);
+    one.has_rules |= option.name == "rules";
     if (is_one_of(option.name, {"output", "rtstruct", "mesh", "picture", "uncertainty", "report"}))
         one.outputs.emplace_back(value);
     if (option.name == "output") one.output = value;
@@ -201,7 +202,7 @@ std::vector<std::string> words_of(const Case& one, const std::vector<std::string
     return words;
 }
 
-Cohort read_cases(const fs::path& table) {
+Cohort read_cases(const fs::path& table, const fs::path& rules) {
     const CsvTable csv = read_csv(table);
     const fs::path folder = table.parent_path();
     std::vector<OptionName> columns;
@@ -211,6 +212,10 @@ Cohort read_cases(const fs::path& table) {
     for (std::size_t n = 0; n < csv.rows.size(); ++n)
         at_line(table, csv.lines[n], [&, line = csv.lines[n]] {
             Case& one = cohort.cases.emplace_back(read_row(columns, csv.rows[n]));
+            if (!rules.empty() && !one.has_rules) {
+                one.inputs.push_back(fs::absolute(rules));  // the case runs in the table's folder
+                one.options.push_back("--rules=" + one.inputs.back().string());
+            }
             one.number = n + 1;
             one.line = line;
             if (one.name.empty()) one.name = std::to_string(one.number);

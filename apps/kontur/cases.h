@@ -19,6 +19,7 @@ struct Case {
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path output;  ///< the mask, which no other row writes
     std::filesystem::path report;  ///< "": not among the row's outputs
+    bool has_rules = false;        ///< the row names a file of rules
     bool has_threads = false;      ///< the row says with how many
 };
 
@@ -33,9 +34,9 @@ struct Cohort {
 
 /// Reads the table: columns `contours` (several files separated by ';') and `image` or `spacing-mm`, `output`, optionally
 /// `case` (a name), `roi` (several, too), and any other option of `segment` without its dashes; empty cells are options not
-/// given. Throws Error(invalid_input), naming the line, for a column that is none of these, whatever `segment` would not
+/// given. Cases that name no file of rules get `rules`, unless it is empty. Throws Error(invalid_input), naming the line, for a column that is none of these, whatever `segment` would not
 /// accept, a name or an output of two rows, and an output that would replace the table or an input of any row.
-Cohort read_cases(const std::filesystem::path& table);
+Cohort read_cases(const std::filesystem::path& table, const std::filesystem::path& rules = {});
 
 /// Throws what writing the case's outputs would throw after the work, naming the line: for a folder that does not exist,
 /// say.

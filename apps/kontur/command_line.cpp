@@ -99,16 +99,25 @@ CLI::Option* add_threads(CLI::App& sub, int& threads, const std::string& help = 
         ->check(between(0, kMostThreads));
 }
 
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+/// "" where it is none of them.
+template <class Value>
+std::string name_of(const Value& value, const Choices<Value>& choices) {
+    for (const auto& [name, choice] : choices)
+        if (choice == value) return name;
+    return "";
+}
+
 /// One of several named values, shown as a|b|c.
 template <class Value>
-void add_choice(CLI::App& sub, const std::string& flag, Value& value, std::vector<std::pair<std::string, Value>> choices,
-                const std::string& help, const std::optional<Value>& shown_default = {}) {
-    std::string names, default_name;
-    for (const auto& [name, choice] : choices) {
-        names += (names.empty() ? "" : "|") + name;
-        if (choice == shown_default.value_or(value)) default_name = name;
-    }
-    sub.add_option_function<std::string>(
+CLI::Option* add_choice(CLI::App& sub, const std::string& flag, Value& value, const Choices<Value>& choices,
+                        const std::string& help) {
+    std::string names;
+    for (const auto& [name, choice] : choices) names += (names.empty() ? "" : "|") + name;
+    const std::string default_name = name_of(value, choices);
+    return sub.add_option_function<std::string>(
            flag,
            [&value, choices, flag, names](const std::string& word) {
                for (const auto& [name, choice] : choices)
@@ -124,7 +133,7 @@ void add_choice(CLI::App& sub, const std::string& flag, Value& value, std::vecto
 }
 
 void add_read_options(CLI::App& sub, ReadImageOptions& read) {
-    sub.add_option("--frame", read.frame, "Which frame of a 4D image, from 0")->type_name("N");
+    sub.add_option("--frame", read.frame, "Which frame of a 4D image, from 1")->type_name("N");
     add_choice<std::optional<NiftiTransform>>(sub, "--prefer", read.prefer,
                                               {{"qform", NiftiTransform::qform}, {"sform", NiftiTransform::sform}},
                                               "Which transform of a NIfTI file counts when its two differ");
@@ -137,12 +146,28 @@ void add_series_options(CLI::App& sub, DicomSeriesOptions& series) {
     sub.add_option("--volume", series.volume, "Which volume of the series (time, echo), from 1")->type_name("N");
 }
 
+void add_curves(CLI::App& sub, std::optional<Curves>& curves) {
+    const Choices<std::optional<Curves>> choices{{"spline", Curves::spline}, {"polygon", Curves::polygon}};
+    add_choice(sub, "--curves", curves, choices,
+               "The line between the points of 3D Slicer's curves: as it draws them, or straight")
+        ->default_str(name_of({Curves::spline}, choices));
+}
+
 void add_holes(CLI::App& sub, std::optional<HoleEncoding>& holes) {
-    add_choice<std::optional<HoleEncoding>>(
-        sub, "--holes", holes,
-        {{"keyhole", HoleEncoding::keyhole}, {"xor", HoleEncoding::exclusive}, {"nested", HoleEncoding::nested}},
-        "How an RTSTRUCT stores holes: one path with a channel, XOR contours, contours in contours",
-        WriteRtstructOptions{}.holes);
+    const Choices<std::optional<HoleEncoding>> choices{
+        {"keyhole", HoleEncoding::keyhole}, {"xor", HoleEncoding::exclusive}, {"nested", HoleEncoding::nested}};
+    add_choice(sub, "--holes", holes, choices,
+               "How an RTSTRUCT stores holes: one path with a channel, XOR contours, contours in contours")
+        ->default_str(name_of({WriteRtstructOptions{}.holes}, choices));
+}
+
+void add_series_words(CLI::App& sub, SeriesWords& series) {
+    constexpr double kMostNumber = std::numeric_limits<std::int32_t>::max();
+    sub.add_option("--series-number", series.number, "Of DICOM output [the time of day, hhmmss]")
+        ->type_name("N")
+        ->check(between(1, kMostNumber));
+    sub.add_option("--series-description", series.description, "Of DICOM output [kontur's, with date and structures]")
+        ->type_name("TEXT");
 }
 
 void add_use_image(CLI::App& sub, UseImage& use) {
@@ -197,6 +222,17 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o, int& threads) {
     add_threads(sub, threads);
 }
 
+/// How contours are fitted, and how the image is read that may tell how the surface runs between them.
+template <class Command>
+void add_fitting(CLI::App& sub, Command& command, CLI::Option* image) {
+    add_segment_method(sub, command.options, command.threads);
+    add_use_image(sub, command.options.use_image);
+    add_read_options(sub, command.image.options);
+    add_series_options(sub, command.image.options.dicom);
+    for (const char* name : {"--use-image", "--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
+        sub.get_option(name)->needs(image);
+}
+
 void add_segment(CLI::App& app, Invocation& invocation) {
     Binder<SegmentCommand> bind(app, invocation, "segment", "Contours in; mask, surface, picture and report out",
                                 "kontur segment contours.json --image ct.nii.gz --output liver.nii.gz --mesh liver.stl \\\n"
@@ -222,6 +258,8 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.option("--roi", c.rois, "NAME",
                 "Which structure of an RTSTRUCT, by name or number; again for more, which become the labels 1, 2, ...")
         ->allow_extra_args(false);
+    bind.option("--rules", c.rules, "FILE",
+                "Rules for further structures that follow from these ROIs, one a line (docs/derive.md)");
     bind.flag("--all-rois", c.all_rois, "All structures of the RTSTRUCT that have contours, in its order")
         ->excludes(bind.sub->get_option("--roi"));
     CLI::Option* together =
@@ -233,16 +271,13 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     rule("--inside", c.inside, "The structure A lies in B: both have its voxels; again for more [as the fits lie]");
     rule("--may-overlap", c.may_overlap, "The structures A and B may share voxels; again for more");
     rule("--exclusive", c.exclusive, "The structures A and B share no voxel; again for more");
+    add_curves(*bind.sub, c.read.curves);
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
     add_holes(*bind.sub, c.holes);
+    add_series_words(*bind.sub, c.series);
     bind.flag("--date", c.date, "Say in the outputs when they were made; without it the same input gives the same bytes");
-    add_segment_method(*bind.sub, c.options, c.threads);
-    add_use_image(*bind.sub, c.options.use_image);
-    add_read_options(*bind.sub, c.image.options);
-    add_series_options(*bind.sub, c.image.options.dicom);
-    for (const char* name : {"--use-image", "--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
-        bind.sub->get_option(name)->needs(image);
+    add_fitting(*bind.sub, c, image);
     bind.quiet();
 }
 
@@ -260,6 +295,7 @@ void add_slicer(CLI::App& app, Invocation& invocation) {
         bind.sub
             ->add_option_function<std::string>(curves[n], [&c](const std::string& file) { c.contours.emplace_back(file); })
             ->group(kHidden);
+    add_curves(*bind.sub, c.read.curves);
     bind.option("--mask", c.output_mask, "FILE", "Label map to write");
     bind.option("--model", c.output_model, "FILE", "Surface to write");
     bind.option("--returnparameterfile", c.return_parameters, "FILE", "Values to write for 3D Slicer");
@@ -277,6 +313,8 @@ void add_batch(CLI::App& app, Invocation& invocation) {
     CLI::Option* collect = bind.flag("--collect", c.collect, "Make nothing, only sum up what was done before");
     CLI::Option* count = bind.flag("--count", c.count, "Make nothing, only print the number of rows");
     add_threads(*bind.sub, c.threads, "Threads of a case that names none; 0: the machine's, shared by the jobs");
+    bind.option("--rules", c.rules, "FILE",
+                "Rules for further structures of each case that names no file of them (docs/derive.md)");
     bind.option("--journal", c.journal, "DIR", "Where to note what was done [TABLE without .csv, and .journal]");
     CLI::Option* summary = bind.option("--summary", c.summary, "FILE", "Summary to write: .json");
     count->excludes(row)->excludes(collect)->excludes(summary);
@@ -295,14 +333,80 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     bind.option("-o,--output", c.output, "FILE",
                 "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
         ->required();
-    bind.option("--name", c.name, "NAME", "The structure's name");
+    CLI::Option* name = bind.option("--name", c.name, "NAME", "The structure's name");
     add_holes(*bind.sub, c.holes);
-    bind.option("--label", c.label, "N", "The label to cut; needed when there are several");
+    add_series_words(*bind.sub, c.series);
+    CLI::Option* label = bind.option("--label", c.label, "N", "The label to cut; needed when there are several");
+    bind.flag("--all-labels", c.all_labels, "Cut all labels, into one RTSTRUCT (.dcm)")->excludes(label)->excludes(name);
     bind.defaulted("--step-mm", c.options.step_mm, "MM", "Sampling distance on a plane; 0: half the smallest spacing");
     bind.defaulted("--tolerance-mm", c.options.tolerance_mm, "MM", "How far dropped points may lie off the contour");
     bind.defaulted("--min-area-mm2", c.options.min_area_mm2, "MM2", "Smaller contours are dropped");
     add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.read);
+    bind.quiet();
+}
+
+void add_correct(CLI::App& app, Invocation& invocation) {
+    Binder<CorrectCommand> bind(app, invocation, "correct", "Correct a mask by what is drawn in some of its planes",
+                                "kontur correct liver.nii.gz corrections.json --output corrected.nii.gz");
+    CorrectCommand& c = *bind.command;
+    bind.word("MASK", c.mask.path,
+              "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG); with --image also a closed surface (STL, PLY, OBJ) or an "
+              "RTSTRUCT");
+    bind.word("CORRECTIONS", c.corrections,
+              "Closed contours replace the outline in their plane, open ones a piece of it: .json, .mrk.json or RTSTRUCT");
+    bind.option("-o,--output", c.output, "FILE",
+                "Label map to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz or, with --image, .dcm (SEG)")
+        ->required();
+    bind.option("--label", c.label, "N", "The label to correct; needed when there are several");
+    bind.option("--mask-roi", c.mask_roi, "NAME", "The structure of an RTSTRUCT that is the mask");
+    CLI::Option* image = bind.option("--image", c.image, "FILE",
+                                     "Image that shows the object; for a SEG (.dcm) the DICOM folder that it refers to");
+    add_choice<UseImage>(*bind.sub, "--use-image", c.use_image, {{"auto", UseImage::automatic}, {"off", UseImage::off}},
+                         "Let the image decide how far corrections are carried: where it is shown, at planes left out, that "
+                         "this helps; or never");
+    bind.sub->get_option("--use-image")->needs(image);
+    bind.defaulted("--reach", c.options.reach, "FACTOR", "How far a correction is carried on, from 0.25 to 4");
+    bind.flag("--drop-loose", c.options.drop_loose, "Take away the pieces that a correction cuts off");
+    bind.option("--provenance-map", c.provenance_map, "FILE",
+                "Label map to write of what made each voxel: 1 as before, 2 added and 3 removed where drawn, 4 added and 5 "
+                "removed beside, 6 added and 7 removed by the image");
+    bind.option("--report", c.report, "FILE", "Report to write: .json");
+    bind.option("--roi", c.read.roi, "NAME", "The structure of an RTSTRUCT that holds the corrections");
+    add_curves(*bind.sub, c.read.curves);
+    add_series_words(*bind.sub, c.series);
+    add_threads(*bind.sub, c.threads);
+    add_read_options(*bind.sub, c.mask.options);
+    add_series_options(*bind.sub, c.mask.options.dicom);
+    bind.quiet();
+}
+
+void add_derive(CLI::App& app, Invocation& invocation) {
+    Binder<DeriveCommand> bind(app, invocation, "derive", "Make structures of structures by rules (docs/derive.md)",
+                               "kontur derive 'PTV = CTV + 5 mm - (Cord + 3 mm)' -i plan.dcm --image ct/ --rtstruct ptv.dcm");
+    DeriveCommand& c = *bind.command;
+    bind.sub->add_option("RULE", c.rules, "NAME = EXPRESSION; again for more")->type_name("");
+    bind.option("--rules", c.rules_file, "FILE", "More rules, one a line; # begins a comment");
+    bind.option("-i,--input", c.inputs, "FILE",
+                "Structures that rules name: RTSTRUCT, contours, label map or SEG; again for more")
+        ->allow_extra_args(false);
+    bind.option("--image", c.image.path, "FILE", "Image or DICOM folder: the grid of contours, and what body() looks at");
+    bind.option("-o,--output", c.output, "FILE",
+                "Label map to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz or, with a DICOM --image, .dcm (SEG); or "
+                "contours of 1 structure (.json)");
+    bind.option("--rtstruct", c.rtstruct, "FILE", "RTSTRUCT to write (.dcm), with a DICOM --image");
+    bind.option("--table", c.table, "FILE",
+                "Each structure against each other to write (.csv): ml, overlap, least distance, how far one sticks out");
+    bind.flag("--with-sources", c.with_sources, "Write the structures that rules name, too");
+    bind.option("--type", c.types, "NAME=TYPE",
+                "Interpreted type of a structure in an RTSTRUCT: GTV, CTV, PTV, ORGAN, AVOIDANCE, EXTERNAL; again for more")
+        ->allow_extra_args(false);
+    add_holes(*bind.sub, c.holes);
+    add_series_words(*bind.sub, c.series);
+    add_use_image(*bind.sub, c.segment.use_image);
+    add_threads(*bind.sub, c.threads);
+    add_read_options(*bind.sub, c.image.options);
+    add_series_options(*bind.sub, c.image.options.dicom);
     bind.quiet();
 }
 
@@ -342,11 +446,14 @@ void add_fill(CLI::App& app, Invocation& invocation) {
         "Let the image tell how the surface runs between the slices: where it is shown, at slices left out, "
         "that this helps; or never");
     bind.sub->get_option("--use-image")->needs(image);
+    bind.flag("--on-image", c.on_image, "Fill on the image's grid: each painted slice goes to its nearest slice there")
+        ->needs(image);
     bind.option("--label", c.options.labels, "N", "Fill only this label; again for more [all]")->allow_extra_args(false);
     bind.sub->add_flag_callback(
         "--alone", [&c] { c.options.jointly = false; }, "Each label for itself: no fit of touching labels together");
     add_fill_method(*bind.sub, c, '-');
     bind.option("--report", c.report, "FILE", "Report to write: .json");
+    add_series_words(*bind.sub, c.series);
     add_read_options(*bind.sub, c.labels.options);
     add_series_options(*bind.sub, c.labels.options.dicom);
     bind.quiet();
@@ -385,13 +492,9 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
     bind.option("-o,--output", c.output, "FILE", "Planes to write, for --planes of trace: .json");
     bind.option("--sketch", c.sketch, "FILE", "Contours to write: the outlines predicted in the planes: .json");
     bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
+    add_curves(*bind.sub, c.read.curves);
     bind.flag("--json", c.json, "Print JSON");
-    add_segment_method(*bind.sub, c.options, c.threads);
-    add_use_image(*bind.sub, c.options.use_image);
-    add_read_options(*bind.sub, c.image.options);
-    add_series_options(*bind.sub, c.image.options.dicom);
-    for (const char* name : {"--use-image", "--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
-        bind.sub->get_option(name)->needs(image);
+    add_fitting(*bind.sub, c, image);
     bind.quiet();
 }
 
@@ -428,12 +531,15 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     ConvertCommand& c = *bind.command;
     bind.word("IN", c.input.path, "Image, DICOM folder, contours, structure set or mesh");
     bind.word("OUT", c.output, "File to write; its name decides the format");
-    bind.option("--image", c.image, "DIR", "DICOM folder of the images that an RTSTRUCT or SEG (.dcm) refers to");
+    bind.option("--image", c.image, "FILE",
+                "DICOM folder that an RTSTRUCT or SEG (.dcm) refers to; or image whose grid a label map or a mesh's mask gets");
     bind.option("--roi", c.contours.roi, "NAME", "Which structure of a structure set, by name or number");
+    add_curves(*bind.sub, c.contours.curves);
     bind.option("--label", c.label, "N", "Of a label map or segmentation only this label");
     bind.option("--add", c.more, "MASK", "One more mask for a SEG, as a segment that may overlap others; again for more")
         ->allow_extra_args(false);
     add_holes(*bind.sub, c.holes);
+    add_series_words(*bind.sub, c.series);
     add_read_options(*bind.sub, c.input.options);
     add_series_options(*bind.sub, c.input.options.dicom);
     bind.quiet();
@@ -462,7 +568,7 @@ void add_second_image(CLI::App& sub, ImageInput& second) {
     sub.add_option("--second-series", options.dicom.series_uid, "Which series of the second image's folder")
         ->type_name("UID");
     sub.add_option("--second-volume", options.dicom.volume, "Which volume of that series, from 1")->type_name("N");
-    sub.add_option("--second-frame", options.frame, "Which frame of a 4D second image, from 0")->type_name("N");
+    sub.add_option("--second-frame", options.frame, "Which frame of a 4D second image, from 1")->type_name("N");
     for (const char* name : {"--second-series", "--second-volume", "--second-frame"}) sub.get_option(name)->needs(image);
 }
 
@@ -478,6 +584,7 @@ void add_open(CLI::App& app, Invocation& invocation) {
     bind.option("--project", c.project, "FILE",
                 "Project to keep the work in [beside the contours, else in your data folder]");
     bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
+    add_curves(*bind.sub, c.read.curves);
     bind.defaulted("--port", c.server.port, "N", "Port on 127.0.0.1; 0: any free one")
         ->check(between(0, std::numeric_limits<std::uint16_t>::max()));
     bind.option("--token", c.server.token, "TEXT", "Secret of the address [random]");
@@ -549,6 +656,8 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_slicer(app, invocation);
     add_batch(app, invocation);
     add_trace(app, invocation);
+    add_correct(app, invocation);
+    add_derive(app, invocation);
     add_fill(app, invocation);
     add_slicer_fill(app, invocation);
     add_suggest(app, invocation);

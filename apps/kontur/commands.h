@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "console.h"
+#include "dicom_output.h"
 #include "files.h"
+#include "kontur/correct_mask.h"
 #include "kontur/extract/trace.h"
 #include "kontur/fill_labels.h"
 #include "kontur/io/contours.h"
@@ -31,6 +33,7 @@ struct SegmentCommand {
     std::vector<std::filesystem::path> contours;
     std::vector<std::string> rois;  ///< several: each becomes a label of its own
     bool all_rois = false;          ///< all that have contours take the place of `rois`
+    std::filesystem::path rules;    ///< of structures that follow from these; empty: none
     bool together = false;          ///< ROIs that exclude each other share no voxel and leave no gap
     std::vector<std::string> inside, may_overlap, exclusive;  ///< rules for pairs of them: "NAME:NAME"
     ReadContoursOptions read;                                 ///< its `roi` is the only one of `rois`
@@ -43,6 +46,7 @@ struct SegmentCommand {
     WriteMaskOptions mask;
     std::string name;                   ///< of the structure; empty: the contour file's
     std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
+    SeriesWords series;
     bool date = false;                  ///< say in the outputs when they were made
     SegmentOptions options;
     int threads = 0;  ///< 0: the machine's
@@ -55,6 +59,7 @@ void check_words(const SegmentCommand& command);
 struct SlicerCommand {
     std::filesystem::path reference;
     std::vector<std::filesystem::path> contours;
+    ReadContoursOptions read;
     std::filesystem::path output_mask, output_model;  ///< empty: not asked for
     std::filesystem::path return_parameters;          ///< where 3D Slicer looks for values to show; empty: nowhere
     SegmentOptions options;
@@ -72,6 +77,7 @@ struct BatchCommand {
     int threads = 0;                ///< of each case that names none; 0: the machine's, shared by the jobs
     std::filesystem::path journal;  ///< folder; empty: beside the table
     std::filesystem::path summary;  ///< empty: not asked for
+    std::filesystem::path rules;    ///< for each case that names none; empty: none
 };
 void run(const BatchCommand& command, Console& console);
 
@@ -85,22 +91,58 @@ struct EndedEarly : std::runtime_error {
 struct TraceCommand {
     std::filesystem::path mask;
     std::optional<std::int64_t> label;
+    bool all_labels = false;  ///< each becomes a ROI of an RTSTRUCT
     ReadImageOptions read;
     std::filesystem::path planes;  ///< empty: the slices of `image` cut; without one the mask's own
     ImageInput image;
     std::filesystem::path output;
     std::string name;                   ///< of the structure; empty: the mask file's
     std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
+    SeriesWords series;
     TraceOptions options;
     int threads = 0;  ///< 0: the machine's
 };
 void run(const TraceCommand& command, Console& console);
 
+/// Corrects a mask by what was drawn in some planes.
+struct CorrectCommand {
+    ImageInput mask;
+    std::optional<std::int64_t> label;
+    std::filesystem::path corrections;
+    ReadContoursOptions read;
+    std::optional<std::string> mask_roi;  ///< of an RTSTRUCT that holds the mask
+    std::filesystem::path image;          ///< that shows the object, and what a SEG refers to; empty: none
+    UseImage use_image = UseImage::automatic;
+    std::filesystem::path output, report, provenance_map;
+    SeriesWords series;
+    CorrectOptions options;
+    int threads = 0;  ///< 0: the machine's
+};
+void run(const CorrectCommand& command, Console& console);
+
+/// Makes structures of structures by rules.
+struct DeriveCommand {
+    std::vector<std::string> rules;
+    std::filesystem::path rules_file;           ///< more of them, one a line; empty: none
+    std::vector<std::filesystem::path> inputs;  ///< RTSTRUCT, contours, label maps
+    ImageInput image;                           ///< what was drawn on, and what DICOM output refers to
+    std::filesystem::path output, rtstruct, table;  ///< empty: not asked for
+    bool with_sources = false;                      ///< write those, too
+    std::vector<std::string> types;                 ///< "NAME=TYPE" of an RTSTRUCT
+    std::optional<HoleEncoding> holes;              ///< of an RTSTRUCT; nullopt: as its writer does by itself
+    SeriesWords series;
+    SegmentOptions segment;  ///< of structures that are contours
+    int threads = 0;         ///< 0: the machine's
+};
+void run(const DeriveCommand& command, Console& console);
+
 /// Fills what was left out between the painted slices of a label map.
 struct FillCommand {
     ImageInput labels;
     std::filesystem::path image;  ///< what a SEG refers to, and what was painted on; empty: not needed
+    bool on_image = false;        ///< its grid is filled, not the one that was painted
     std::filesystem::path output, report;
+    SeriesWords series;
     FillOptions options;
     int threads = 0;  ///< 0: the machine's
 };
@@ -164,9 +206,10 @@ struct ConvertCommand {
     std::vector<std::filesystem::path> more;  ///< masks that become further segments of a DICOM SEG
     std::optional<std::int64_t> label;        ///< of a label map or segmentation only this one
     ReadContoursOptions contours;
-    std::filesystem::path image;  ///< DICOM series that DICOM output refers to
+    std::filesystem::path image;  ///< DICOM series that DICOM output refers to; of other label maps the grid to write
     std::filesystem::path output;
     std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
+    SeriesWords series;
 };
 void run(const ConvertCommand& command, Console& console);
 

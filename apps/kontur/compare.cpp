@@ -37,11 +37,11 @@ struct Side {
 Side read_side(const std::filesystem::path& path, const std::optional<std::int64_t>& label, const ReadImageOptions& read,
                const Work& work) {
     if (label) return {read_mask(path, label, read, work), label};
-    const Image image = read_label_image(path, read, work);
     try {
+        const Image image = read_label_image(path, read, work);
         if (const auto labels = count_labels(image, 1); !labels.empty())
             return {select_nonzero(image), labels.begin()->first};
-    } catch (const Error&) {  // several labels or none, which read_mask refuses with their list
+    } catch (const Error&) {  // several labels, layers or none, which read_mask refuses with their list
     }
     return {read_mask(path, {}, read, work), {}};
 }

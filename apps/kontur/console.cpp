@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kontur/base/error.h"
+#include "usage_sentence.h"
 
 namespace kontur::app {
 
@@ -40,7 +41,7 @@ void Console::print(std::string_view text) {
 void Console::warn(std::string_view sentence) {
     const std::scoped_lock lock(mutex_);
     clear_bar();
-    print_stderr(fmt::format("kontur: warning: {}\n", sentence));
+    print_stderr(fmt::format("kontur: warning: {}\n", with_typed_options(std::string(sentence))));
 }
 
 void Console::warn_once(std::string_view sentence) {
@@ -51,7 +52,8 @@ void Console::note(std::span<const std::string> sentences) {
     if (quiet_) return;
     const std::scoped_lock lock(mutex_);
     clear_bar();
-    for (const std::string& sentence : sentences) print_stderr(fmt::format("kontur: note: {}\n", sentence));
+    for (const std::string& sentence : sentences)
+        print_stderr(fmt::format("kontur: note: {}\n", with_typed_options(sentence)));
 }
 
 ReadImageOptions Console::noting(ReadImageOptions options) {

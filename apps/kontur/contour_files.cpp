@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -55,10 +56,21 @@ ReadContours read_contours_to_fit(const std::vector<fs::path>& paths, const Read
     for (const fs::path& path : paths) {
         ReadContoursOptions of_this = options;
         if (!is_rtstruct(path)) of_this.roi.reset();
-        if (const auto problem = problem_of_a_contour(read_contours(path, of_this).contours))
-            refuse(path.string(), *problem);
+        check_each_contour(path, read_contours(path, of_this).contours);
     }
     refuse(list(paths), problems.front());
+}
+
+void check_each_contour(const fs::path& file, const ContourSet& contours) {
+    if (const auto problem = problem_of_a_contour(contours)) refuse(file.string(), *problem);
+}
+
+void put_notes_first(const std::vector<std::string>& notes, std::vector<std::string>& warnings) {
+    // A note may begin with its file's name.
+    std::erase_if(warnings, [&](const std::string& warning) {
+        return std::ranges::any_of(notes, [&](const std::string& note) { return note.ends_with(warning); });
+    });
+    warnings.insert(warnings.begin(), notes.begin(), notes.end());
 }
 
 }  // namespace kontur::app

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -10,8 +13,11 @@
 #include "dicom_output.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
+#include "kontur/extract/mesh_mask.h"
 #include "kontur/io/image.h"
 #include "kontur/io/meshes/mesh.h"
+#include "labels_on_grid.h"
 #include "outputs.h"
 #include "structures.h"
 
@@ -35,17 +41,21 @@ const char* words(FileKind kind) {
 /// The command that does what was asked of convert.
 const char* advice(FileKind from, FileKind to) {
     if (from == FileKind::contours) return "kontur segment makes masks and meshes from contours";
-    if (from == FileKind::mesh) return "kontur only changes the format of meshes";
+    if (from == FileKind::mesh) return "kontur makes masks of meshes, which kontur trace cuts into contours";
     if (to == FileKind::contours) return "kontur trace cuts a mask into contours";
     return "kontur trace cuts a mask into contours, of which kontur segment makes a mesh";
 }
 
-/// What is converted; it stays what it is.
+/// A surface whose inside becomes a mask.
+bool makes_mask(FileKind from, const fs::path& output) {
+    return from == FileKind::mesh && output_kind(output).value_or(FileKind::image) == FileKind::image;
+}
+
+/// What is converted; it stays what it is, but for a mesh that becomes a mask.
 FileKind check_kinds(const ConvertCommand& command) {
     const std::optional<FileKind> to = output_kind(command.output);
     const FileKind from = input_kind(command.input.path);
-    if (from == to || (!to && from != FileKind::mesh)) return from;
-    if (!to) check_output_kind(command.output, from);
+    if (from == to || !to || makes_mask(from, command.output)) return from;
     throw Error(ErrorKind::unsupported,
                 fmt::format("{} holds {} and cannot be converted to {} in {}; {}", command.input.path.string(), words(from),
                             words(*to), command.output.string(), advice(from, *to)));
@@ -54,7 +64,9 @@ FileKind check_kinds(const ConvertCommand& command) {
 Provenance provenance_of(const ConvertCommand& command, const Work& work) {
     std::vector<std::pair<std::string, fs::path>> inputs{{"source", command.input.path}};
     for (const fs::path& path : command.more) inputs.emplace_back(fmt::format("source_{}", inputs.size() + 1), path);
+    if (!is_dicom_name(command.output)) inputs.emplace_back("image", command.image);
     std::string options = command.contours.roi ? fmt::format("roi={}", *command.contours.roi) : "";
+    if (command.contours.curves == Curves::polygon) options += options.empty() ? "curves=polygon" : " curves=polygon";
     if (command.label) options = fmt::format("label={}", *command.label);
     return made_by("convert", inputs, options, work);
 }
@@ -73,6 +85,26 @@ Structures structures_of(const ConvertCommand& command, Console& console) {
     return all;
 }
 
+/// In ml, of what is not 0.
+double volume_ml(const Image& labels) {
+    double voxels = 0;
+    for (const auto& [label, count] : count_labels(labels)) voxels += static_cast<double>(count);
+    return voxels * labels.grid.voxel_volume_mm3() / 1000;
+}
+
+/// Says what the nearest voxels make of the volume, where that is another one.
+Image on_grid_of(const Image& labels, const ImageInput& source, const ImageInput& image, Console& console) {
+    check_labels(labels, source);
+    ReadImageOptions read = image.options;
+    read.frame.reset();  // chosen of the labels
+    Image moved = labels_on_grid(labels, read_grid(image.path, read, console.work()));
+    const double before = volume_ml(labels), after = volume_ml(moved);
+    if (std::abs(before - after) > 1e-6 * before)
+        console.warn(fmt::format("on the grid of {} the labels have {:.4g} ml in place of {:.4g} ml", image.path.string(),
+                                 after, before));
+    return moved;
+}
+
 void convert_image(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
     const ImageInput input{command.input.path, console.noting(command.input.options)};
     const ImageInput images{command.image, console.noting(command.input.options)};
@@ -80,17 +112,47 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
         for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.input.path), images))
             console.warn(note);
     const bool by_itself = !command.more.empty() || (!command.label && may_overlap(input));
+    if (by_itself && !command.image.empty() && !is_dicom_name(output))
+        throw Error(ErrorKind::unsupported,
+                    fmt::format("segments of {} overlap, and --image moves one label map at a time to its grid; choose one "
+                                "with --label",
+                                command.input.path.string()));
     if (by_itself && has_room_for_overlap(output))
-        return console.note(write_structures(output, structures_of(command, console), images, made, console.work()));
+        return console.note(
+            write_structures({output, images, command.series, made}, structures_of(command, console), console.work()));
     if (by_itself && !is_dicom_seg(input.path))  // of which the reader says which
         throw Error(ErrorKind::invalid_input,
                     fmt::format("segments of {} overlap, and {} has room for one in a voxel; write a SEG (.dcm) or "
                                 ".seg.nrrd, or choose one with --label",
                                 command.input.path.string(), command.output.string()));
-    const bool as_it_is = !command.label && !has_room_for_overlap(output);
+    const bool onto_grid = !command.image.empty() && !is_dicom_name(output);
+    const bool as_it_is = !command.label && !has_room_for_overlap(output) && !onto_grid;
     const Image image =
         as_it_is ? read_image(input.path, input.options, console.work()) : read_labels(input, command.label, console.work());
-    console.note(write_image(output, image, input, images, made, console.work()));
+    console.note(write_image({output, images, command.series, made},
+                             onto_grid ? on_grid_of(image, input, images, console) : image, input, console.work()));
+}
+
+void convert_to_mask(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
+    const ImageInput images{command.image, console.noting(command.input.options)};
+    const fs::path& path = command.input.path;
+    MeshMask inside = [&] {
+        try {
+            return voxelize_mesh(read_mesh(path), read_grid(images.path, images.options, console.work()), console.work());
+        } catch (const Error& error) {
+            throw error.kind() == ErrorKind::invalid_input ? error.with_context(path.string()) : error;
+        }
+    }();
+    if (std::ranges::count(inside.mask.values, 1) == 0)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("no voxel of {} lies within {}", command.image.string(), path.string()));
+    if (inside.is_cut)
+        console.warn(fmt::format("{} reaches beyond {} and is cut off there", path.string(), command.image.string()));
+    if (!has_room_for_overlap(output)) return write_mask(output, inside.mask, {.provenance = made});
+    Structures one;
+    one.segments.push_back({.label = printable_utf8(path.stem().string()), .color = kStructureColor});
+    one.masks.push_back(std::move(inside.mask));
+    console.note(write_structures({output, images, command.series, made}, one, console.work()));
 }
 
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
@@ -104,9 +166,11 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
             const ImageInput images{command.image, console.noting(command.input.options)};
             for (const std::string& note : frame_of_reference_notes(loaded.frame_of_reference_uid, images))
                 console.warn(note);
-            return console.note(write_contours(output, loaded.contours, images, rtstruct_options(command.holes, made)));
+            return console.note(write_contours(output, loaded.contours, images,
+                                               rtstruct_options(command.holes, command.series, made)));
         }
         case FileKind::mesh:
+            if (makes_mask(kind, command.output)) return convert_to_mask(command, output, made, console);
             return write_mesh(output, read_mesh(command.input.path), made);
     }
 }
@@ -117,8 +181,13 @@ void check_options(const ConvertCommand& command, FileKind kind) {
     const ReadImageOptions& read = command.input.options;
     const bool is_dicom = is_dicom_name(command.output);
     check_holes(command.holes, is_dicom && kind == FileKind::contours);
-    if (!command.image.empty() && !is_dicom) refuse("--image is for DICOM (.dcm), which refers to images");
+    check_series(command.series, std::array{command.output});
+    if (!command.image.empty() && !is_dicom && kind != FileKind::image && !makes_mask(kind, command.output))
+        refuse("--image is for DICOM (.dcm), which refers to images, and for label maps, which get its grid");
+    if (command.image.empty() && makes_mask(kind, command.output))
+        refuse("a mask of a mesh needs a grid; name an image that has it with --image");
     if (command.contours.roi && kind != FileKind::contours) refuse("--roi chooses from a structure set");
+    if (command.contours.curves && kind != FileKind::contours) refuse("--curves is for 3D Slicer's markups (.mrk.json)");
     if ((read.frame || read.prefer || read.allow_missing_geometry) && kind != FileKind::image)
         refuse("--frame, --prefer and --allow-missing-geometry are for images");
     if ((read.dicom.series_uid || read.dicom.volume) && kind != FileKind::image && !is_dicom)

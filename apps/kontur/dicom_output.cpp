@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/images/nrrd.h"
@@ -21,6 +24,14 @@ DicomSeries series_of(const ImageInput& images) {
     if (images.options.on_warning)
         for (const std::string& warning : found.warnings) images.options.on_warning(warning);
     return std::move(found.series);
+}
+
+WriteDicomSegOptions seg_options(const SeriesWords& series, const Provenance& made) {
+    WriteDicomSegOptions options;
+    options.series_number = series.number;
+    if (!series.description.empty()) options.series_description = series.description;
+    options.provenance = made;
+    return options;
 }
 
 /// What makes a fit reproducible.
@@ -48,8 +59,22 @@ void check_holes(const std::optional<HoleEncoding>& holes, bool is_rtstruct) {
         throw Error(ErrorKind::invalid_input, "--holes says how an RTSTRUCT stores holes, and none is written");
 }
 
-WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, const Provenance& made) {
+void check_series(const SeriesWords& series, std::span<const fs::path> outputs) {
+    constexpr std::size_t kMostBytes = 64;
+    if (series.number == 0 && series.description.empty()) return;
+    if (std::none_of(outputs.begin(), outputs.end(), is_dicom_name))
+        throw Error(ErrorKind::invalid_input, "--series-number and --series-description are for DICOM (.dcm)");
+    check_utf8(series.description, "--series-description");
+    if (series.description.size() > kMostBytes)
+        throw Error(ErrorKind::invalid_input, fmt::format("--series-description has {} bytes; DICOM has room for {}",
+                                                          series.description.size(), kMostBytes));
+}
+
+WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, const SeriesWords& series,
+                                      const Provenance& made) {
     WriteRtstructOptions options;
+    options.series_number = series.number;
+    if (!series.description.empty()) options.series_description = series.description;
     options.holes = holes.value_or(options.holes);
     options.provenance = made;
     return options;
@@ -85,39 +110,58 @@ std::vector<std::string> write_contours(const fs::path& path, const ContourSet& 
     return write_rtstruct(path, {"kontur", {roi}}, series_of(images), options);
 }
 
-std::vector<std::string> write_mask(const fs::path& path, const Segmentation& result, const StructureAttributes& attributes,
-                                    const ImageInput& images, const WriteMaskOptions& options, const Work& work) {
+std::vector<std::string> write_contours_of_all(const fs::path& path, const std::vector<ContourSet>& sets,
+                                               const ImageInput& images, const WriteRtstructOptions& options) {
+    StructureSet all{"kontur", {}};
+    for (const ContourSet& set : sets) {
+        Roi& roi = all.rois.emplace_back();
+        roi.name = set.name;
+        roi.contours = set;
+    }
+    return write_rtstruct(path, all, series_of(images), options);
+}
+
+std::vector<std::string> write_mask(const OutputFile& file, const Segmentation& result,
+                                    const StructureAttributes& attributes, const WriteMaskOptions& options,
+                                    const Work& work) {
+    const auto& [path, images, series, provenance] = file;
     if (!is_dicom_name(path)) {
-        WriteMaskOptions said = options;
-        said.segment_tags = tags_of_terms(attributes);
-        kontur::write_mask(path, result.mask, said);
+        WriteMaskOptions with_tags = options;
+        with_tags.segment_tags = tags_of_terms(attributes);
+        kontur::write_mask(path, result.mask, with_tags);
         return {};
     }
     DicomSegment segment = fitted_segment(attributes);
     segment.label = options.segment_name;
     segment.color = to_rgb8(options.segment_color);
     const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION,
-                                   parameters(result.report, options.provenance)};
-    return write_dicom_seg(path, {result.mask.grid, result.mask.values}, {segment}, series_of(images),
-                           {.algorithm = algorithm, .provenance = options.provenance}, work);
+                                   parameters(result.report, provenance)};
+    WriteDicomSegOptions write = seg_options(series, provenance);
+    write.algorithm = algorithm;
+    return write_dicom_seg(path, {{result.mask.grid, result.mask.values}, {segment}}, series_of(images), write, work);
 }
 
-std::vector<std::string> write_image(const fs::path& path, const Image& image, const ImageInput& source,
-                                     const ImageInput& images, const Provenance& provenance, const Work& work) {
+std::vector<std::string> write_image(const OutputFile& file, const Image& image, const ImageInput& source,
+                                     const Work& work) {
+    const auto& [path, images, series, provenance] = file;
     if (!is_dicom_name(path)) {
-        const bool has_names = has_extension(path, ".seg.nrrd");
-        if (has_names) check_labels(image, source);
-        const std::vector<LabelName> names = has_names ? label_names(source) : std::vector<LabelName>{};
-        kontur::write_image(path, image, {names, provenance});
+        if (has_extension(path, ".seg.nrrd")) check_labels(image, source);
+        kontur::write_image(path, image, {has_label_names(path) ? label_names(source) : std::vector<LabelName>{}, provenance});
         return {};
     }
     const std::vector<DicomSegment> segments = segments_of(image, source);
     check_no_image(image, segments.size());
-    return write_dicom_seg(path, image, segments, series_of(images), {.provenance = provenance}, work);
+    return write_labels(file, image, segments, work);
 }
 
-std::vector<std::string> write_structures(const fs::path& path, const Structures& structures, const ImageInput& images,
-                                          const Provenance& provenance, const Work& work) {
+std::vector<std::string> write_labels(const OutputFile& file, const Image& labels,
+                                      const std::vector<DicomSegment>& segments, const Work& work) {
+    return write_dicom_seg(file.path, {labels, segments}, series_of(file.images), seg_options(file.series, file.provenance),
+                           work);
+}
+
+std::vector<std::string> write_structures(const OutputFile& file, const Structures& structures, const Work& work) {
+    const auto& [path, images, series, provenance] = file;
     if (!is_dicom_name(path)) {
         std::vector<NrrdSegment> segments;
         for (std::size_t n = 0; n < structures.segments.size(); ++n) {
@@ -128,8 +172,8 @@ std::vector<std::string> write_structures(const fs::path& path, const Structures
         write_seg_nrrd_masks(path, structures.masks, segments, provenance);
         return {};
     }
-    return write_dicom_seg_masks(path, structures.masks, structures.segments, series_of(images), {.provenance = provenance},
-                                 work);
+    return write_dicom_seg_masks(path, {structures.masks, structures.segments}, series_of(images),
+                                 seg_options(series, provenance), work);
 }
 
 }  // namespace kontur::app

@@ -12,6 +12,7 @@
 #include "facts.h"
 #include "fill_structures.h"
 #include "input_digests.h"
+#include "labels_on_grid.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
@@ -27,6 +28,7 @@ Provenance provenance_of(const FillCommand& command, const Work& work) {
     const FillOptions& o = command.options;
     std::string options = fmt::format("ends={} jointly={} shape_weight={} smoothing_voxels={} use_image={}", name(o.ends),
                                       o.jointly, o.shape_weight, o.smoothing_voxels, name(o.use_image));
+    if (command.on_image) options += " on_image=true";
     for (const std::int64_t label : o.labels) options += fmt::format(" label={}", label);
     return made_by("fill", {{"labels", command.labels.path}, {"image", command.image}}, options, work);
 }
@@ -38,23 +40,19 @@ void check(const FillCommand& command) {
     check_outputs(std::array{command.output, command.report}, inputs);
     check_output_kind(command.output, FileKind::image);
     check_dicom_images(command.output, command.image);
+    check_series(command.series, std::array{command.output});
     if (!command.report.empty() && !has_extension(command.report, ".json"))
         throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .json", command.report.string()));
-    if (!command.image.empty() && !is_dicom_name(command.output) && command.options.use_image == UseImage::off)
+    if (!command.image.empty() && !is_dicom_name(command.output) && command.options.use_image == UseImage::off &&
+        !command.on_image)
         throw Error(ErrorKind::invalid_input,
                     "--image is for --use-image auto and for DICOM (.dcm), which refers to images");
 }
 
 Facts image_facts(const ImageReport& image) {
-    return {{"verdict", name(image.verdict)},
-            {"planes_left_out", image.planes_left_out},
-            {"displaced", image.displaced},
-            {"walked", image.walked},
-            {"weight", image.weight},
-            {"wrong_without", image.wrong_without},
-            {"wrong_with", image.wrong_with},
-            {"error_without_mm", image.error_without_mm},
-            {"error_with_mm", image.error_with_mm}};
+    Facts facts;
+    visit_facts(image, [&](const char* key, const auto& value) { facts[key] = value; });
+    return facts;
 }
 
 Facts report_of(const FilledFile& filled, const std::vector<std::string>& warnings, const Provenance& made) {
@@ -114,6 +112,13 @@ auto named(const ImageInput& input, const Fill& fill) {
     }
 }
 
+Image painted_on_grid(const ImageInput& input, const ImageInput& images, const Image& labels, const Work& work) {
+    check_labels(labels, input);
+    ReadImageOptions read = images.options;
+    read.frame.reset();  // chosen of the labels
+    return named(input, [&] { return slices_on_grid(labels, read_grid(images.path, read, work)); });
+}
+
 /// Those that the file gives the labels, which each stand for one structure there.
 std::vector<std::string> names_of(const ImageInput& input, const FillReport& report) {
     const std::vector<DicomSegment> segments = named_segments(input);
@@ -142,6 +147,9 @@ FilledFile fill_files(const FillCommand& command, Console& console, const Work& 
             console.warn(note);
     const bool overlaps = may_overlap(input);
     if (overlaps) check_room_for_overlap(command);
+    if (overlaps && command.on_image)
+        throw Error(ErrorKind::invalid_input, fmt::format("segments of {} overlap, and --on-image fills one label map",
+                                                          input.path.string()));
     std::vector<std::string> warnings;
     FilledFile file;
     Image filled;
@@ -153,6 +161,7 @@ FilledFile fill_files(const FillCommand& command, Console& console, const Work& 
         for (const DicomSegment& segment : each.structures.segments) file.names.push_back(segment.label);
     } else {
         Image labels = read_labels(input, {}, work);
+        if (command.on_image) labels = painted_on_grid(input, images, labels, work);
         Filling filling =
             named(input, [&] { return fill_labels(std::move(labels), image ? &*image : nullptr, command.options, work); });
         filled = std::move(filling.labels);
@@ -162,8 +171,8 @@ FilledFile fill_files(const FillCommand& command, Console& console, const Work& 
     const Provenance made = provenance_of(command, work);
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {
-        console.note(overlaps ? write_filled(path, each, images, made, work)
-                              : write_image(path, filled, input, images, made, work));
+        const OutputFile output{path, images, command.series, made};
+        console.note(overlaps ? write_filled(output, each, work) : write_image(output, filled, input, work));
     });
     if (!command.report.empty())
         outputs.write(command.report, [&](const fs::path& path) {

@@ -33,15 +33,6 @@ Structures structures_of(const ImageInput& input, const std::vector<std::int64_t
     return some;
 }
 
-/// A label map of one structure.
-Image label_map(const Mask& mask, std::int64_t label) {
-    std::vector<std::uint16_t> labels(mask.values.size());
-    std::transform(mask.values.begin(), mask.values.end(), labels.begin(),
-                   [label](std::uint8_t v) { return static_cast<std::uint16_t>(v != 0 ? label : 0); });
-    if (label <= 255) return {mask.grid, std::vector<std::uint8_t>(labels.begin(), labels.end())};
-    return {mask.grid, std::move(labels)};
-}
-
 }  // namespace
 
 FilledStructures fill_structures(const ImageInput& input, const Image* image, const FillOptions& options, const Work& work) {
@@ -72,14 +63,14 @@ void check_room_for_overlap(const FillCommand& command) {
                             command.labels.path.string(), command.output.string()));
 }
 
-std::vector<std::string> write_filled(const std::filesystem::path& path, const FilledStructures& filled,
-                                      const ImageInput& images, const Provenance& made, const Work& work) {
+std::vector<std::string> write_filled(const OutputFile& file, const FilledStructures& filled, const Work& work) {
+    const std::filesystem::path& path = file.path;
     if (is_dicom_name(path) || (has_room_for_overlap(path) && filled.structures.segments.size() > 1))
-        return write_structures(path, filled.structures, images, made, work);
+        return write_structures(file, filled.structures, work);
     const DicomSegment& segment = filled.structures.segments.front();
     const LabelName name{segment.number, segment.label, to_levels(segment.color.value_or(kStructureColor)),
                          tags_of(filled.structures, 0)};
-    kontur::write_image(path, label_map(filled.structures.masks.front(), segment.number), {{name}, made});
+    kontur::write_image(path, label_map(filled.structures.masks.front(), segment.number), {{name}, file.provenance});
     return {};
 }
 

@@ -25,7 +25,6 @@ FilledStructures fill_structures(const ImageInput& input, const Image* image, co
 void check_room_for_overlap(const FillCommand& command);
 
 /// Writes a SEG, or the one structure as a label map. Returns what the user should know.
-std::vector<std::string> write_filled(const std::filesystem::path& path, const FilledStructures& filled,
-                                      const ImageInput& images, const Provenance& made, const Work& work);
+std::vector<std::string> write_filled(const OutputFile& file, const FilledStructures& filled, const Work& work);
 
 }  // namespace kontur::app

@@ -48,10 +48,10 @@ Facts describe_frame(const fs::path& path, ReadImageOptions options, const Work&
     try {
         return describe(read_image(path, options, work));
     } catch (const FrameNeeded& needed) {
-        options.frame = 0;
+        options.frame = 1;
         Facts facts = describe(read_image(path, options, work));
         facts["frames"] = needed.frames();
-        if (options.on_note) options.on_note("the values are those of frame 0; --frame takes another");
+        if (options.on_note) options.on_note("the values are those of frame 1; --frame takes another");
         return facts;
     }
 }

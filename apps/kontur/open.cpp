@@ -134,8 +134,8 @@ private:
             if (pages.callback) pages.callback(stage, fraction);
         };
         Opened opened = open_project(command_, words_, Work{.callback = tell, .stop = pages.stop});
-        console_.note(opened.told.notes);
-        for (const std::string& warning : opened.told.warnings) console_.warn(warning);
+        console_.note(opened.messages.notes);
+        for (const std::string& warning : opened.messages.warnings) console_.warn(warning);
         project_ = opened.session->project_path();
         return opened.session;
     }

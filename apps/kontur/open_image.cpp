@@ -46,14 +46,14 @@ bool is_example(const fs::path& path) {
     return path == viewer::kExample && !fs::exists(path, ignored);
 }
 
-void open_file(const ImageInput& input, const Work& work, viewer::OpenedImage& opened, Told& told) {
+void open_file(const ImageInput& input, const Work& work, viewer::OpenedImage& opened, Messages& messages) {
     ReadImageOptions options = input.options;
     std::vector<std::string> warnings;
     options.on_note = [&](std::string_view note) { opened.notes.emplace_back(note); };
     options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
     opened.image = std::make_shared<const Image>(read_image(input.path, options, work));
-    told.notes.insert(told.notes.end(), opened.notes.begin(), opened.notes.end());
-    told.warnings.insert(told.warnings.end(), warnings.begin(), warnings.end());
+    messages.notes.insert(messages.notes.end(), opened.notes.begin(), opened.notes.end());
+    messages.warnings.insert(messages.warnings.end(), warnings.begin(), warnings.end());
     opened.notes.insert(opened.notes.end(), warnings.begin(), warnings.end());
     opened.title = fs::absolute(input.path).lexically_normal().filename().string();
     opened.reference.path = fs::absolute(input.path).lexically_normal().string();
@@ -73,11 +73,11 @@ Image times(const Image& image, double factor) {
 }
 
 /// PET in Bq/ml is shown as SUV, where its files tell how.
-void turn_into_suv(viewer::OpenedImage& opened, Told& told) {
+void turn_into_suv(viewer::OpenedImage& opened, Messages& messages) {
     const auto scale = opened.series ? suv_scale(opened.series->files.front()) : std::nullopt;
     if (!scale) return;
-    opened.notes.push_back(scale->told);
-    told.notes.push_back(scale->told);
+    opened.notes.push_back(scale->sentence);
+    messages.notes.push_back(scale->sentence);
     if (scale->suv_per_bqml == 0) return;
     opened.image = std::make_shared<const Image>(times(*opened.image, scale->suv_per_bqml));
     opened.identity.unit = kSuvUnit;
@@ -106,15 +106,15 @@ int count_times(const ImageInput& input, const viewer::OpenedImage& opened) {
 /// The other volumes are read when somebody looks at them.
 viewer::Times times_of(const ImageInput& input, const viewer::OpenedImage& opened) {
     const bool is_series = opened.series && input.options.dicom.volume;
-    const auto own = is_series ? *input.options.dicom.volume - 1 : input.options.frame.value_or(0);
+    const auto own = is_series ? *input.options.dicom.volume - 1 : input.options.frame.value_or(1) - 1;
     const auto read = [input, is_series](int time) {
         ImageInput other = input;
         if (is_series) other.options.dicom.volume = time + 1;
-        else other.options.frame = time;
-        Told told;  // what there is to say was said of the one that was opened
+        else other.options.frame = time + 1;
+        Messages messages;  // what there is to say was said of the one that was opened
         viewer::OpenedImage image;
-        open_file(other, {}, image, told);
-        turn_into_suv(image, told);
+        open_file(other, {}, image, messages);
+        turn_into_suv(image, messages);
         return image.image;
     };
     return {count_times(input, opened), static_cast<int>(own), read};
@@ -122,19 +122,19 @@ viewer::Times times_of(const ImageInput& input, const viewer::OpenedImage& opene
 
 }  // namespace
 
-viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Told& told) {
+viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Messages& messages) {
     viewer::OpenedImage opened;
     if (is_example(input.path)) {
         opened.image = std::make_shared<const Image>(phantom_image(work));
         opened.title = "Phantom: upper abdomen";
         opened.reference.path = viewer::kExample;
     } else {
-        open_file(input, work, opened, told);
+        open_file(input, work, opened, messages);
         opened.times = times_of(input, opened);
     }
     work.report("look at values", 1);
     opened.reference.fingerprint = viewer::fingerprint(*opened.image);
-    turn_into_suv(opened, told);  // by its file's values it is known again
+    turn_into_suv(opened, messages);  // by its file's values it is known again
     return opened;
 }
 

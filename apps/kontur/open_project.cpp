@@ -17,6 +17,7 @@
 #include "kontur/shape/repeated_contours.h"
 #include "viewer/files/import_doubts.h"
 #include "viewer/files/imports.h"
+#include "viewer/images/further_image.h"
 #include "viewer/images/same_space.h"
 #include "viewer/model/temporary_files.h"
 
@@ -73,9 +74,11 @@ viewer::Imported drawn_by_others(const fs::path& file, const Work& work) {
 
 /// What a new project starts with: the contours of the file, or a structure to draw.
 viewer::Imported first_contours(const OpenCommand& command, const Words& words, const Work& work, Opened& result) {
-    if (words.contours.empty()) return {{ContourSet{}}, {}, {}};
+    if (command.read.curves && words.contours.empty())
+        throw Error(ErrorKind::invalid_input, "--curves is for 3D Slicer's markups (.mrk.json), and there are none");
+    if (words.contours.empty()) return {{ContourSet{}}, {}, {}, {}};
     viewer::Imported first;
-    if (!command.read.roi && dicom_drawing(words.contours)) {
+    if (!command.read.roi && !command.read.curves && dicom_drawing(words.contours)) {
         first = drawn_by_others(words.contours, work);
     } else {
         ReadContours read = read_contours(words.contours, command.read);
@@ -84,9 +87,9 @@ viewer::Imported first_contours(const OpenCommand& command, const Words& words, 
         } catch (const Error& error) {
             throw error.with_context(words.contours.string());
         }
-        first = {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
+        first = {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid), {}};
     }
-    result.told.notes.insert(result.told.notes.end(), first.notes.begin(), first.notes.end());
+    result.messages.notes.insert(result.messages.notes.end(), first.notes.begin(), first.notes.end());
     for (ContourSet& set : first.sets)
         if (set.name.empty()) set.name = bare_name(words.contours);
     return first;
@@ -95,8 +98,9 @@ viewer::Imported first_contours(const OpenCommand& command, const Words& words, 
 /// Whoever names image and contours together may have named the wrong ones: said here and on the page.
 void tell_doubts(const viewer::Imported& first, const std::string& file, viewer::OpenedImage& image, Opened& result) {
     for (const std::string& doubt :
-         viewer::import_doubts(first.sets, first.frame_of_reference_uid, image.image->grid, image.frame_of_reference_uid)) {
-        result.told.warnings.push_back(fmt::format("does {} belong to this image? {}", file, doubt));
+         viewer::import_doubts(first.sets, {first.frame_of_reference_uid, first.patient}, image.image->grid,
+                               {image.frame_of_reference_uid, viewer::patient_words(image.identity)})) {
+        result.messages.warnings.push_back(fmt::format("does {} belong to this image? {}", file, doubt));
         image.notes.push_back(fmt::format("Does {} belong to this image? {}", file, doubt));
     }
 }
@@ -105,9 +109,10 @@ void tell_doubts(const viewer::Imported& first, const std::string& file, viewer:
 void check_is_there(const fs::path& image, const fs::path& project) {
     std::error_code unreachable;
     if (image == viewer::kExample || fs::exists(image, unreachable)) return;
-    throw Error(ErrorKind::io, fmt::format("{} was drawn on {}, which is not there; where it has moved, name its new place, "
-                                           "too: kontur open {} IMAGE",
-                                           project.string(), image.string(), project.filename().string()));
+    throw viewer::ImageMoved(fmt::format("{} was drawn on {}, which is not there; where it has moved, name its new place, "
+                                         "too: kontur open {} IMAGE",
+                                         project.string(), image.string(), project.filename().string()),
+                             image.string());
 }
 
 /// The image that the words name, or the project does, with the choice that it was drawn on.
@@ -129,9 +134,9 @@ std::optional<viewer::OpenedImage> named_second_image(const ImageInput& input, c
                                                       const Work& work, Opened& result) {
     if (input.path.empty()) return std::nullopt;
     try {
-        viewer::OpenedImage second = open_image(input, work, result.told);
+        viewer::OpenedImage second = open_image(input, work, result.messages);
         for (const std::string& sentence : viewer::assumptions_of_one_space(first, second))
-            result.told.warnings.push_back(sentence);
+            result.messages.warnings.push_back(sentence);
         return second;
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::cancelled) throw;
@@ -144,25 +149,25 @@ void show_kept_second_image(viewer::Session& session, const Work& work, Opened& 
     const std::optional<viewer::ImageReference> kept = session.kept_second_image();
     if (!kept) return;
     try {
-        viewer::OpenedImage second = open_image(input_of(kept->path, kept->choice), work, result.told);
+        viewer::OpenedImage second = open_image(input_of(kept->path, kept->choice), work, result.messages);
         if (second.reference.fingerprint != kept->fingerprint)
             session.add_note(
                 fmt::format("The second image, {}, has changed since it was added to this project.", second.title));
         session.put_second_image(std::move(second));
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::cancelled) throw;
-        result.told.warnings.push_back(fmt::format("the second image is not shown: {}", error.what()));
+        result.messages.warnings.push_back(fmt::format("the second image is not shown: {}", error.what()));
         session.add_note(fmt::format("The second image is not shown: {}", error.what()));
     }
 }
 
 }  // namespace
 
-Opened open_project(const OpenCommand& told, const Words& named, const Work& work) {
+Opened open_project(const OpenCommand& given, const Words& named, const Work& work) {
     Opened result;
-    OpenCommand command = told;
+    OpenCommand command = given;
     const Words words = with_images(named, work, command);
-    viewer::OpenedImage image = open_image(image_input(command, words), work, result.told);
+    viewer::OpenedImage image = open_image(image_input(command, words), work, result.messages);
     const fs::path project = project_path(command, words, image);
     // Read before there is a project for them: a file that cannot be read leaves none.
     std::optional<viewer::Imported> first;
@@ -174,7 +179,7 @@ Opened open_project(const OpenCommand& told, const Words& named, const Work& wor
     if (result.session->is_new()) {
         result.session->begin_with(first ? first->sets : first_contours(command, words, work, result).sets);
     } else if (!words.contours.empty()) {
-        result.told.warnings.push_back(
+        result.messages.warnings.push_back(
             fmt::format("{} holds the work on these contours from before; they were not read again",
                         result.session->project_path().string()));
     }
@@ -186,13 +191,14 @@ Opened open_project(const OpenCommand& told, const Words& named, const Work& wor
 std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Work& work) {
     OpenCommand command;
     command.files = {request.path};
+    if (!request.image.empty()) command.files.push_back(request.image);
     choose(command.image.options, request.choice);
     return open_project(command, sorted_words(command), work).session;
 }
 
 viewer::OpenedImage read_second_image(const viewer::OpenRequest& request, const Work& work) {
-    Told told;  // what there is to say is in the image's own notes
-    return open_image(input_of(request.path, request.choice), work, told);
+    Messages messages;  // what there is to say is in the image's own notes
+    return open_image(input_of(request.path, request.choice), work, messages);
 }
 
 fs::path viewer_file(std::string_view name) {

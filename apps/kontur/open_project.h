@@ -22,7 +22,7 @@ namespace kontur::app {
 /// A session, and what the user should know of how it came to be.
 struct Opened {
     std::shared_ptr<viewer::Session> session;
-    Told told;
+    Messages messages;
 };
 
 /// About the second image that the command names: with the first one all may be well.

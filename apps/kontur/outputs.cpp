@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "outputs.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 #include "files.h"
@@ -38,6 +42,45 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 void keep(const fs::path& target, const fs::path& kept, std::error_code& error) {
     fs::create_hard_link(target, kept, error);
     if (error) fs::rename(target, kept, error);
+}
+
+constexpr std::string_view kHiddenStem = ".kontur-";
+constexpr std::string_view kKeptStem = ".replaced-";
+
+/// A lock on a folder, which the system takes back when the process ends, however it does; -1 where another holds it, or the
+/// file system has no locks on folders.
+int lock_folder(const fs::path& folder, int how) {
+    const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (opened < 0 || flock(opened, LOCK_EX | how) == 0) return opened;
+    close(opened);
+    return -1;
+}
+
+bool keeps_a_file(const fs::path& hidden) {
+    std::error_code error;
+    for (fs::directory_iterator at(hidden, error), end; !error && at != end; at.increment(error))
+        if (at->path().filename().string().starts_with(kKeptStem)) return true;
+    return static_cast<bool>(error);
+}
+
+/// As mkdtemp makes it for this user.
+bool is_ours(int folder) {
+    struct stat status {};
+    return fstat(folder, &status) == 0 && status.st_uid == geteuid() && (status.st_mode & 07777) == 0700;
+}
+
+/// Removes the hidden folders of runs that were killed; not those that keep what stood at a target.
+void clear_leftovers(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        const std::string name = at->path().filename().string();
+        if (name.size() != kHiddenStem.size() + 6 || !name.starts_with(kHiddenStem)) continue;
+        const int lock = lock_folder(at->path(), LOCK_NB);
+        if (lock < 0) continue;
+        std::error_code ignored;
+        if (is_ours(lock) && !keeps_a_file(at->path())) fs::remove_all(at->path(), ignored);
+        close(lock);
+    }
 }
 
 }  // namespace
@@ -78,6 +121,7 @@ void check_outputs(std::span<const fs::path> targets, std::span<const fs::path> 
 Outputs::~Outputs() {
     std::error_code ignored;
     for (const auto& [folder, hidden] : folders_) fs::remove_all(hidden, ignored);
+    for (const int lock : locks_) close(lock);
     if (!created_folder_.empty()) fs::remove(created_folder_, ignored);
 }
 
@@ -100,9 +144,15 @@ void Outputs::write(const fs::path& target, const std::function<void(const fs::p
 
 fs::path Outputs::staging_folder(const fs::path& folder) {
     if (const auto known = folders_.find(folder); known != folders_.end()) return known->second;
-    std::string hidden = (folder / ".kontur-XXXXXX").string();
-    if (!mkdtemp(hidden.data())) fail(folder, std::generic_category().message(errno));
-    return folders_[folder] = hidden;
+    clear_leftovers(folder);
+    for (;;) {
+        std::string hidden = (folder / fmt::format("{}XXXXXX", kHiddenStem)).string();
+        if (!mkdtemp(hidden.data())) fail(folder, std::generic_category().message(errno));
+        const int lock = lock_folder(hidden, 0);
+        if (lock >= 0) locks_.push_back(lock);
+        // Another run may have taken it for a leftover before it was locked.
+        if (std::error_code ignored; fs::exists(hidden, ignored)) return folders_[folder] = hidden;
+    }
 }
 
 void Outputs::commit() {
@@ -112,7 +162,7 @@ void Outputs::commit() {
         const bool is_new = !fs::exists(target, error);
         if (!is_new) {
             fs::permissions(temporary, fs::status(target).permissions(), error);
-            const Replaced old{target, temporary.parent_path() / fmt::format(".replaced-{}", before.size())};
+            const Replaced old{target, temporary.parent_path() / fmt::format("{}{}", kKeptStem, before.size())};
             keep(old.target, old.kept, error);
             if (!error) before.push_back(old);
         }

@@ -53,6 +53,7 @@ private:
 
     std::map<std::filesystem::path, std::filesystem::path> folders_;  ///< target folder to hidden folder
     std::map<std::filesystem::path, std::filesystem::path> files_;    ///< target to where it waits
+    std::vector<int> locks_;                                          ///< of the hidden folders, until they are gone
     std::filesystem::path created_folder_;                            ///< to be removed again; empty: none
 };
 

@@ -48,8 +48,16 @@ void RoiResults::add(const SegmentCommand& command, FittedRoi one, ContourSet ou
 }
 
 Facts roi_report(const RoiResults& result, const Provenance& made) {
-    Facts structures = Facts::array();
+    Facts structures = Facts::array(), derived = Facts::array();
     for (const FittedRoi& one : result.all) {
+        if (!one.rule.empty()) {
+            derived.push_back({{"label", one.segment.number},
+                               {"name", one.segment.label},
+                               {"rule", one.rule},
+                               {"voxels", one.report.mask_voxels},
+                               {"volume_ml", one.report.mask_volume_ml}});
+            continue;
+        }
         Facts facts{{"label", one.segment.number}, {"name", one.segment.label}};
         facts.update(Facts::parse(kontur::to_json(one.report, one.made)));
         structures.push_back(std::move(facts));
@@ -58,6 +66,7 @@ Facts roi_report(const RoiResults& result, const Provenance& made) {
     for (const auto& [name, value] : made) provenance[name] = value;
     Facts report{
         {"version", KONTUR_VERSION}, {"provenance", provenance}, {"structures", structures}, {"warnings", result.notes}};
+    if (!derived.empty()) report["derived"] = derived;
     for (const LeftOutRoi& one : result.left_out)
         report["left_out"].push_back({{"name", one.roi.name}, {"number", one.roi.number}, {"reason", one.reason}});
     if (result.together)
@@ -71,8 +80,12 @@ Facts roi_report(const RoiResults& result, const Provenance& made) {
 
 std::vector<std::string> write_label_map(const fs::path& path, const RoiResults& result, const Provenance& made) {
     std::vector<std::string> names;
-    for (const FittedRoi& one : result.all) names.push_back(one.segment.label);
-    kontur::write_image(path, result.labels.image(), {{}, made});
+    std::vector<LabelName> labels;
+    for (const FittedRoi& one : result.all) {
+        names.push_back(one.segment.label);
+        labels.push_back({one.segment.number, one.segment.label, to_levels(one.segment.color.value_or(kStructureColor))});
+    }
+    kontur::write_image(path, result.labels.image(), {labels, made});
     return result.labels.notes(names);
 }
 
@@ -81,7 +94,7 @@ std::vector<std::string> write_roi_contours(const fs::path& path, const SegmentC
     StructureSet set{"kontur", {}};
     for (const FittedRoi& one : all) set.rois.push_back(one.roi);
     const DicomSeries series = read_dicom_grid(command.image.path, command.image.options.dicom).series;
-    return write_rtstruct(path, set, series, rtstruct_options(command.holes, made));
+    return write_rtstruct(path, set, series, rtstruct_options(command.holes, command.series, made));
 }
 
 void write_roi_surfaces(const fs::path& path, const RoiResults& result, const Provenance& made) {

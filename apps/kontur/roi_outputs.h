@@ -10,6 +10,7 @@
 #include "dicom_output.h"
 #include "facts.h"
 #include "kontur/io/dicom/rtstruct.h"
+#include "kontur/derive/derive.h"
 #include "kontur/labels/shared_surface.h"
 #include "kontur/segment_together.h"
 #include "roi_drawings.h"
@@ -23,6 +24,7 @@ struct FittedRoi {
     Roi roi;  ///< the surface on the slices, where an RTSTRUCT is asked for
     SegmentReport report;
     Provenance made;
+    std::string rule{};  ///< of a derived structure, whose report has the mask's figures alone
 };
 
 /// What all ROIs became.
@@ -33,6 +35,7 @@ struct RoiResults {
     Structures structures{};                 ///< where it has: a SEG or a .seg.nrrd keeps all voxels
     std::optional<SharedSurface> surface{};  ///< where a mesh is asked for
     std::optional<Together> together{};      ///< without the structures: what they are to each other
+    std::vector<NamedStructure> for_rules{};  ///< where there are rules
     std::vector<std::string> notes;
 
     RoiResults(const SegmentCommand& command, const RoiDrawings& drawings)

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 #include <future>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
 #include "kontur/base/printable.h"
+#include "kontur/base/stopwatch.h"
 #include "kontur/evidence.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/bytes/atomic_file.h"
@@ -91,12 +91,13 @@ RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segm
 }
 
 /// The surface on the image's slices. What there is to tell becomes a warning in the report.
-void write_structure_set(const fs::path& path, const SegmentCommand& command, const Inputs& inputs, Segmentation& result,
-                         const Provenance& made, const Work& work) {
+void write_structure_set(const OutputFile& file, const std::optional<HoleEncoding>& holes, const Inputs& inputs,
+                         Segmentation& result, const Work& work) {
     ContourSet set = slice_contours(result.mask, result.function, work);
     set.name = inputs.contours.name;
     set.attributes = fitted_attributes(inputs.contours.attributes);
-    for (std::string& note : write_contours(path, set, command.image, rtstruct_options(command.holes, made)))
+    for (std::string& note :
+         write_contours(file.path, set, file.images, rtstruct_options(holes, file.series, file.provenance)))
         result.report.warnings.push_back(std::move(note));
 }
 
@@ -120,18 +121,6 @@ void write_uncertainty(const fs::path& path, const Inputs& inputs, const Segment
         write_mesh(path, *result.mesh, {"half_width_mm", half_widths_mm(evidence, result.mesh->points, work)}, made);
     else write_image(path, uncertainty_map(result.mask, evidence, work), {{}, made});
 }
-
-/// Measures consecutive stages into a report's `seconds`.
-class Laps {
-public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 std::string crossings_line(const std::vector<Crossing>& crossings) {
     const Disagreement all = disagreement(crossings);
@@ -164,6 +153,7 @@ void print_summary(const SegmentCommand& command, const Segmentation& result, do
 void check_words(const SegmentCommand& command) {
     check_output_kind(command.output, FileKind::image);
     check_holes(command.holes, !command.rtstruct.empty());
+    check_series(command.series, std::array{command.output, command.rtstruct});
     if (!command.rtstruct.empty()) check_extension(command.rtstruct, ".dcm");
     if (command.image.path.empty())
         for (const fs::path& path : {command.output, command.rtstruct}) check_dicom_images(path, {});
@@ -196,12 +186,13 @@ void run(const SegmentCommand& words, Console& console) {
     check_files(command);
     if (has_several(command)) return segment_rois(command, console);
     const Work work = console.work(command.threads);
-    Laps laps;
+    std::vector<std::pair<std::string, double>> seconds;
+    Stopwatch reading(seconds);
     const Inputs inputs = read_inputs(command, work);
     // Beside the work: a large image takes as long to digest as a small case to segment.
     std::future<Provenance> digests =
         std::async(std::launch::async, [&command, stop = work.stop] { return input_digests(command, Work{.stop = stop}); });
-    const double read_seconds = laps.lap();
+    reading.lap("read");
 
     SegmentOptions options = command.options;
     check_planes_suffice(command, inputs.contours);
@@ -210,9 +201,9 @@ void run(const SegmentCommand& words, Console& console) {
     Segmentation result = segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, work);
     SegmentReport& report = result.report;
     name_margin(command, report.warnings);
-    report.warnings.insert(report.warnings.begin(), inputs.notes.begin(), inputs.notes.end());
-    report.seconds.insert(report.seconds.begin(), {"read", read_seconds});
-    laps.lap();
+    put_notes_first(inputs.notes, report.warnings);
+    report.seconds.insert(report.seconds.begin(), seconds.begin(), seconds.end());
+    Stopwatch writing(report.seconds);
 
     WriteMaskOptions mask = command.mask;
     if (!inputs.contours.name.empty()) mask.segment_name = inputs.contours.name;
@@ -226,18 +217,21 @@ void run(const SegmentCommand& words, Console& console) {
         if (!target.empty()) outputs.write(target, writer);
         work.check();
     };
+    const auto dicom = [&](const fs::path& path) {
+        return OutputFile{path, command.image, command.series, mask.provenance};
+    };
     write(command.output, [&](const fs::path& path) {
-        for (std::string& note : write_mask(path, result, inputs.contours.attributes, command.image, mask, work))
+        for (std::string& note : write_mask(dicom(path), result, inputs.contours.attributes, mask, work))
             report.warnings.push_back(std::move(note));
     });
     write(command.rtstruct,
-          [&](const fs::path& path) { write_structure_set(path, command, inputs, result, mask.provenance, work); });
+          [&](const fs::path& path) { write_structure_set(dicom(path), command.holes, inputs, result, work); });
     write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, mask.provenance); });
     write(command.picture,
           [&](const fs::path& path) { write_png(path, picture(command, inputs, result, work), mask.provenance); });
     write(command.uncertainty,
           [&](const fs::path& path) { write_uncertainty(path, inputs, result, mask.provenance, work); });
-    report.seconds.emplace_back("write", laps.lap());
+    writing.lap("write");
     write(command.report, [&](const fs::path& path) { write_file_atomically(path, to_json(report, mask.provenance)); });
     outputs.commit();
 

@@ -9,11 +9,14 @@
 #include <optional>
 #include <utility>
 
+#include "contour_files.h"
+#include "derived_rois.h"
 #include "dicom_output.h"
 #include "facts.h"
 #include "input_digests.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/labels/boxed_mask.h"
@@ -71,7 +74,7 @@ FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& 
     fitted.segment.label = roi.name;
     fitted.made = provenance(roi.contours, drawings.grid, result.report);
     fitted.report = std::move(result.report);
-    fitted.report.warnings.insert(fitted.report.warnings.begin(), roi.notes.begin(), roi.notes.end());
+    put_notes_first(roi.notes, fitted.report.warnings);
     fitted.roi.name = roi.name;
     fitted.roi.number = roi.number;
     fitted.roi.contours.attributes = std::move(attributes);
@@ -89,6 +92,7 @@ RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, 
             ContourSet outlines;
             if (!command.rtstruct.empty()) outlines = slice_contours(made.mask, made.function, work);
             FittedRoi one = fitted_from(drawings, n, made);
+            if (!command.rules.empty()) result.for_rules.push_back({one.roi.name, made.mask, made.function});
             result.add(command, std::move(one), std::move(outlines), std::move(made.mask), whole_box(drawings.grid));
         } catch (const Error& error) {
             throw error.with_context(fmt::format("ROI '{}'", drawings.rois[n].name));
@@ -126,6 +130,9 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
         BoxedMask object{all.boxes[n], std::move(all.structures[n].mask)};
         ContourSet outlines = command.rtstruct.empty() ? ContourSet{} : slice_outlines(object, drawings.grid);
         FittedRoi one = fitted_from(drawings, n, all.structures[n]);
+        if (!command.rules.empty())
+            result.for_rules.push_back({one.roi.name, widened(object, whole_box(drawings.grid), drawings.grid).mask,
+                                        all.structures[n].function});
         if (has_extension(command.output, ".seg.nrrd"))  // all layers have one grid
             object = widened(object, whole_box(drawings.grid), drawings.grid);
         result.add(command, std::move(one), std::move(outlines), std::move(object.mask), object.box);
@@ -137,7 +144,9 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
 
 }  // namespace
 
-bool has_several(const SegmentCommand& command) { return command.all_rois || command.rois.size() > 1; }
+bool has_several(const SegmentCommand& command) {
+    return command.all_rois || command.rois.size() > 1 || !command.rules.empty();
+}
 
 void check_roi_words(const SegmentCommand& command) {
     const auto refuse_one = [](const char* option) {
@@ -152,6 +161,9 @@ void check_roi_words(const SegmentCommand& command) {
     if (!command.name.empty()) refuse_one("--name");
     if (command.mask.label_value != WriteMaskOptions{}.label_value)
         refuse("--label-value is for one structure; several ROIs become the labels 1, 2, ...");
+    if (command.rois.empty() && !command.all_rois)
+        refuse("--rules is for ROIs of an RTSTRUCT; name those that rules need by --roi, or --all-rois");
+    if (command.read.curves) refuse("--curves is for 3D Slicer's markups (.mrk.json); several ROIs come from an RTSTRUCT");
     if (command.contours.size() != 1) refuse("several ROIs are chosen from one RTSTRUCT");
     if (command.rois.size() > std::numeric_limits<std::uint16_t>::max())
         throw Error(ErrorKind::too_large,
@@ -161,10 +173,14 @@ void check_roi_words(const SegmentCommand& command) {
 void segment_rois(const SegmentCommand& command, Console& console) {
     const Work work = console.work(command.threads);
     const RoiDrawings drawings = read_roi_drawings(command, work);
+    if (!command.rules.empty()) check_roi_derivation(command, drawings);
     RoiResults result = command.together ? fit_together(command, drawings, work) : fit_each(command, drawings, work);
     const std::vector<FittedRoi>& all = result.all;
 
     Provenance made = together(all);
+    if (!command.rules.empty()) add_derived_rois(command, drawings, result, work);
+    for (const FittedRoi& one : all)
+        if (!one.rule.empty()) made.emplace_back(fmt::format("rule_{}", one.segment.number), printable_utf8(one.rule));
     for (auto& digest : input_digests(command, work)) made.push_back(std::move(digest));
     if (command.date) made.emplace_back("date", utc_date());
 
@@ -173,8 +189,9 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     };
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {
-        add(has_room_for_overlap(path) ? write_structures(path, result.structures, command.image, made, work)
-                                       : write_label_map(path, result, made));
+        add(has_room_for_overlap(path)
+                ? write_structures({path, command.image, command.series, made}, result.structures, work)
+                : write_label_map(path, result, made));
     });
     if (!command.rtstruct.empty())
         outputs.write(command.rtstruct, [&](const fs::path& path) { add(write_roi_contours(path, command, all, made)); });
@@ -191,7 +208,10 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     for (const std::string& note : result.notes) console.warn(note);
     std::string text = fmt::format("{}: {}\n", command.output.string(), counted(all.size(), "structure"));
     for (const FittedRoi& one : all)
-        text += fmt::format("{} {}: {}, {}; residual {:.3g} mm (max)\n", one.segment.number, one.segment.label,
+        if (!one.rule.empty())
+            text += fmt::format("{} {}: {}, {}; by rule\n", one.segment.number, one.segment.label,
+                                counted(one.report.mask_voxels, "voxel"), in_ml(one.report.mask_volume_ml));
+        else text += fmt::format("{} {}: {}, {}; residual {:.3g} mm (max)\n", one.segment.number, one.segment.label,
                             counted(one.report.mask_voxels, "voxel"), in_ml(one.report.mask_volume_ml),
                             one.report.residual.max_mm);
     for (const fs::path& path : {command.rtstruct, command.mesh, command.report})

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "contour_files.h"
 #include "kontur/base/error.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/file_digest.h"
@@ -58,6 +59,15 @@ constexpr const char* kParameters = R"(  <parameters>
     <label>Method</label>
     <description><![CDATA[How the surface runs through the curves]]></description>
     <string-enumeration>
+      <name>curves</name>
+      <label>Curves</label>
+      <longflag>--curves</longflag>
+      <description><![CDATA[The line between the points of a curve: as 3D Slicer draws a new one (spline), or straight, as in its curves of type linear (polygon)]]></description>
+      <default>spline</default>
+      <element>spline</element>
+      <element>polygon</element>
+    </string-enumeration>
+    <string-enumeration>
       <name>kernel</name>
       <label>Kernel</label>
       <longflag>--kernel</longflag>
@@ -101,14 +111,14 @@ void check(const SlicerCommand& command) {
     check_outputs(std::array{command.output_mask, command.output_model, command.return_parameters}, inputs);
 }
 
-struct Made {
+struct SegmentedModel {
     ContourSet contours;
     Segmentation result;
 };
 
-void write_outputs(const SlicerCommand& command, const Made& made, const Work& work) {
-    const Segmentation& result = made.result;
-    Provenance how = provenance(made.contours, result.mask.grid, result.report);
+void write_outputs(const SlicerCommand& command, const SegmentedModel& model, const Work& work) {
+    const Segmentation& result = model.result;
+    Provenance how = provenance(model.contours, result.mask.grid, result.report);
     how.emplace_back("contour_files_sha256", files_sha256(command.contours, work));
     how.emplace_back("image_sha256", file_sha256(command.reference, work));
     Outputs outputs;
@@ -123,12 +133,13 @@ void write_outputs(const SlicerCommand& command, const Made& made, const Work& w
     outputs.commit();
 }
 
-Made fit(const SlicerCommand& command, const Work& work) {
-    ReadContours contours = read_contours(command.contours);
+SegmentedModel fit(const SlicerCommand& command, const Work& work) {
+    ReadContours contours = read_contours_to_fit(command.contours, command.read);
     const Grid grid = read_grid(command.reference, {}, work);
     SegmentOptions options = command.options;
     options.mesh = !command.output_model.empty();
     Segmentation result = segment(contours.contours, grid, options, work);
+    result.report.warnings.insert(result.report.warnings.begin(), contours.notes.begin(), contours.notes.end());
     return {std::move(contours.contours), std::move(result)};
 }
 
@@ -146,7 +157,7 @@ std::string curve_parameters(int first, int last) {
       <label>Curve {0}</label>
       <longflag>{1}</longflag>
       <channel>input</channel>
-      <description><![CDATA[Closed curve around the object, drawn in one slice view. Straight lines join its points: resample curves with few points. Open curves are stretches of the border, points lie on the surface]]></description>
+      <description><![CDATA[Closed curve around the object, drawn in one slice view. Open curves are stretches of the border, points lie on the surface]]></description>
     </pointfile>
 )",
                             number, curve_flag(number));
@@ -164,9 +175,9 @@ std::vector<std::string> slicer_curve_flags() {
 void run(const SlicerCommand& command, Console& console) {
     check(command);
     SlicerRun run(kName);
-    const Made made = fit(command, run.work(command.threads, console.stop_token()));
-    write_outputs(command, made, Work{.stop = console.stop_token()});
-    for (const std::string& warning : made.result.report.warnings) run.say("warning: " + warning);
+    const SegmentedModel model = fit(command, run.work(command.threads, console.stop_token()));
+    write_outputs(command, model, Work{.stop = console.stop_token()});
+    for (const std::string& warning : model.result.report.warnings) run.say("warning: " + warning);
     run.end();
 }
 

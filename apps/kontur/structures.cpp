@@ -9,6 +9,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/image.h"
+#include "kontur/io/images/nifti_extensions.h"
 #include "kontur/io/images/nrrd.h"
 #include "kontur/io/images/segment_tags.h"
 
@@ -17,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-DicomSegment to_dicom(const NrrdSegment& segment) {
+DicomSegment to_dicom(const NrrdSegment& segment, std::int64_t number) {
     const SegmentTerms terms = terms_in_tags(segment.tags);
-    return {.number = segment.label_value,
+    return {.number = number,
             .label = segment.name,
             .color = to_rgb8(segment.color),
             .category = terms.category,
@@ -38,13 +39,15 @@ bool has_layers(const std::vector<NrrdSegment>& segments) {
 Structures read_layers(const ImageInput& input, const std::vector<NrrdSegment>& segments, const Work& work) {
     std::map<std::int64_t, Image> layers;
     Structures found;
-    for (const NrrdSegment& segment : segments) {
+    const std::vector<std::int64_t> numbers = segment_numbers(segments);
+    for (std::size_t n = 0; n < segments.size(); ++n) {
+        const NrrdSegment& segment = segments[n];
         if (!layers.contains(segment.layer)) {
             ReadImageOptions options = input.options;
-            options.frame = segment.layer;
+            options.frame = segment.layer + 1;
             layers.emplace(segment.layer, read_label_image(input.path, options, work));
         }
-        found.segments.push_back(to_dicom(segment));
+        found.segments.push_back(to_dicom(segment, numbers[n]));
         found.tags.push_back(segment.tags);
         found.masks.push_back(select_label(layers.at(segment.layer), static_cast<double>(segment.label_value)));
     }
@@ -82,14 +85,23 @@ Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, co
         return std::move(found.labels);
     }
     ReadImageOptions options = input.options;
-    if (label && !options.frame) options.frame = layer_of(nrrd_segments(input.path), *label);
+    std::optional<std::int64_t> value;
+    if (label && !options.frame) {
+        const std::vector<NrrdSegment> segments = nrrd_segments(input.path);
+        check_segment_choice(segments, label, input.path);
+        if (const NrrdSegment* const segment = segment_of_number(segments, *label)) {
+            options.frame = segment->layer + 1;
+            value = segment->label_value;
+        }
+    }
     Image image = read_label_image(input.path, options, work);
     if (!label) return image;
-    if (!count_labels(image).contains(*label))
+    if (!count_labels(image).contains(value.value_or(*label)))
         throw Error(ErrorKind::invalid_input, fmt::format("{} has no label {}", input.path.string(), *label));
-    const auto keep = [label](auto& values) {
-        for (auto& value : values)
-            if (static_cast<std::int64_t>(value) != *label) value = 0;
+    const std::int64_t stored = value.value_or(*label);
+    const auto keep = [&]<class Sample>(std::vector<Sample>& samples) {
+        for (Sample& sample : samples)
+            sample = static_cast<std::int64_t>(sample) == stored ? static_cast<Sample>(*label) : Sample{0};
     };
     std::visit(keep, image.samples);
     return image;
@@ -98,8 +110,9 @@ Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, co
 std::vector<DicomSegment> named_segments(const ImageInput& source) {
     if (is_dicom_seg(source.path)) return read_dicom_segmentation(source.path).segments;
     std::vector<DicomSegment> segments;
-    for (const NrrdSegment& segment : nrrd_segments(source.path))
-        if (segment.layer == source.options.frame.value_or(0)) segments.push_back(to_dicom(segment));
+    for (const LabelName& name : label_names(source)) {
+        segments.push_back(to_dicom({name.name, name.color, name.label, 0, name.tags}, name.label));
+    }
     return segments;
 }
 
@@ -109,12 +122,20 @@ std::vector<LabelName> label_names(const ImageInput& source) {
         const auto color = segment.color.value_or(kStructureColor);
         names.push_back({segment.number, segment.label, to_levels(color), std::move(tags)});
     };
-    const bool is_seg = is_dicom_seg(source.path);
-    for (const NrrdSegment& segment : is_seg ? std::vector<NrrdSegment>{} : nrrd_segments(source.path))
-        if (segment.layer == source.options.frame.value_or(0)) add(to_dicom(segment), segment.tags);
-    if (is_seg)
+    if (is_dicom_seg(source.path)) {
         for (const DicomSegment& segment : read_dicom_segmentation(source.path).segments)
             add(segment, tags_of_terms(attributes_of(segment)));
+        return names;
+    }
+    if (has_extension(source.path, ".nii") || has_extension(source.path, ".nii.gz")) {
+        for (const NamedLabel& label : read_nifti_labels(source.path)) names.push_back({label.label, label.name, label.color});
+        return names;
+    }
+    const std::vector<NrrdSegment> segments = nrrd_segments(source.path);
+    const std::vector<std::int64_t> numbers = segment_numbers(segments);
+    for (std::size_t n = 0; n < segments.size(); ++n)
+        if (!source.options.frame || segments[n].layer + 1 == *source.options.frame)
+            add(to_dicom(segments[n], source.options.frame ? segments[n].label_value : numbers[n]), segments[n].tags);
     return names;
 }
 
@@ -138,8 +159,20 @@ std::vector<DicomSegment> segments_of(const Image& image, const ImageInput& sour
     return segments;
 }
 
+Image label_map(const Mask& mask, std::int64_t label) {
+    std::vector<std::uint16_t> labels(mask.values.size());
+    std::transform(mask.values.begin(), mask.values.end(), labels.begin(),
+                   [label](std::uint8_t v) { return static_cast<std::uint16_t>(v != 0 ? label : 0); });
+    if (label <= 255) return {mask.grid, std::vector<std::uint8_t>(labels.begin(), labels.end())};
+    return {mask.grid, std::move(labels)};
+}
+
 std::string tags_of(const Structures& structures, std::size_t n) {
     return n < structures.tags.size() ? structures.tags[n] : tags_of_terms(attributes_of(structures.segments[n]));
+}
+
+bool has_label_names(const fs::path& output) {
+    return has_extension(output, ".seg.nrrd") || has_extension(output, ".nii") || has_extension(output, ".nii.gz");
 }
 
 bool has_room_for_overlap(const fs::path& output) { return is_dicom_name(output) || has_extension(output, ".seg.nrrd"); }

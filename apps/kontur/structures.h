@@ -21,10 +21,11 @@ constexpr std::array<std::uint8_t, 3> kStructureColor{230, 179, 77};  ///< that 
 /// The image; with `label` its voxels of that value alone, the others 0. Throws Error(invalid_input) when it has none.
 Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work);
 
-/// What a DICOM SEG or a .seg.nrrd says about its segments, of the layer that is read; empty for other files.
+/// What a DICOM SEG, a .seg.nrrd or a NIfTI file with a table of labels says about its segments, of the layer that is read
+/// or of all; empty for other files.
 std::vector<DicomSegment> named_segments(const ImageInput& source);
 
-/// The same for a .seg.nrrd, with all tags of the segments of another one.
+/// The same with all tags of 3D Slicer.
 std::vector<LabelName> label_names(const ImageInput& source);
 
 /// Throws Error(invalid_input), naming the source, when an image read from it is no label map.
@@ -40,8 +41,14 @@ struct Structures {
     std::vector<std::string> tags{};  ///< of 3D Slicer, one for each where the file has them
 };
 
+/// A label map of one structure.
+Image label_map(const Mask& mask, std::int64_t label);
+
 /// What 3D Slicer's tags say of one of them.
 std::string tags_of(const Structures& structures, std::size_t n);
+
+/// Whether a label map of this name says what its labels are.
+bool has_label_names(const std::filesystem::path& output);
 
 /// Whether structures that overlap can be written to a file of this name: a SEG, or a .seg.nrrd on layers.
 bool has_room_for_overlap(const std::filesystem::path& output);

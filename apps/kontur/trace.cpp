@@ -9,6 +9,7 @@
 #include "dicom_output.h"
 #include "input_digests.h"
 #include "kontur/base/counted.h"
+#include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/contours/contour_json.h"
 #include "outputs.h"
@@ -38,6 +39,7 @@ Provenance provenance_of(const TraceCommand& command, const Work& work) {
     std::string options =
         fmt::format("step_mm={} tolerance_mm={} min_area_mm2={}", o.step_mm, o.tolerance_mm, o.min_area_mm2);
     if (command.label) options += fmt::format(" label={}", *command.label);
+    if (command.all_labels) options += " all_labels=true";
     return made_by("trace", {{"mask", command.mask}, {"planes", command.planes}, {"image", command.image.path}}, options,
                    work);
 }
@@ -58,6 +60,35 @@ void check(const TraceCommand& command) {
     check_output_kind(command.output, FileKind::contours);
     check_dicom_images(command.output, command.image.path);
     check_holes(command.holes, is_dicom_name(command.output));
+    check_series(command.series, std::array{command.output});
+    if (command.all_labels && !is_dicom_name(command.output))
+        throw Error(
+            ErrorKind::invalid_input,
+            fmt::format("{} has room for one structure; --all-labels is for an RTSTRUCT (.dcm)", command.output.string()));
+}
+
+void trace_all(const TraceCommand& command, const ImageInput& images, Console& console, const Work& work) {
+    const Structures found = read_structures({command.mask, console.noting(command.read)}, work);
+    if (found.masks.empty())
+        throw Error(ErrorKind::invalid_input, command.mask.string() + " has no labels, so there is nothing to cut");
+    const std::vector<Plane> planes = planes_to_cut(command, found.masks.front(), console, work);
+    std::vector<ContourSet> sets;
+    std::size_t contours = 0;
+    for (std::size_t n = 0; n < found.masks.size(); ++n) {
+        ContourSet& set = sets.emplace_back(trace(found.masks[n], planes, command.options, work));
+        set.name = found.segments[n].label;
+        set.attributes = attributes_of(found.segments[n]);
+        contours += set.contours.size();
+        if (set.contours.empty()) console.warn(fmt::format("no plane meets '{}', whose ROI is empty", set.name));
+    }
+    const WriteRtstructOptions write = rtstruct_options(command.holes, command.series, provenance_of(command, work));
+    Outputs outputs;
+    outputs.write(command.output, [&](const std::filesystem::path& path) {
+        console.note(write_contours_of_all(path, sets, images, write));
+    });
+    outputs.commit();
+    console.print(fmt::format("{}: {} with {} in {}\n", command.output.string(), counted(sets.size(), "structure"),
+                              counted(contours, "contour"), counted(planes.size(), "plane")));
 }
 
 }  // namespace
@@ -67,6 +98,7 @@ void run(const TraceCommand& command, Console& console) {
     const Work work = console.work(command.threads);
     const ImageInput images{command.image.path, console.noting(command.image.options)};
     for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), images)) console.warn(note);
+    if (command.all_labels) return trace_all(command, images, console, work);
     const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), work);
     const std::vector<Plane> planes = planes_to_cut(command, mask, console, work);
     ContourSet set = trace(mask, planes, command.options, work);
@@ -80,7 +112,7 @@ void run(const TraceCommand& command, Console& console) {
     }
     if (!command.name.empty()) set.name = command.name;
 
-    const WriteRtstructOptions write = rtstruct_options(command.holes, provenance_of(command, work));
+    const WriteRtstructOptions write = rtstruct_options(command.holes, command.series, provenance_of(command, work));
     Outputs outputs;
     outputs.write(command.output,
                   [&](const std::filesystem::path& path) { console.note(write_contours(path, set, images, write)); });

@@ -35,11 +35,11 @@ std::string usage_sentence(const std::string& of_parser) {
 }
 
 std::string with_typed_options(const std::string& of_library) {
-    static const std::regex kOption("the option (label|roi|frame|prefer|allow_missing_geometry)\\b");
+    static const std::regex kOption("the option (label|roi|frame|prefer|allow_missing_geometry|series_uid|volume)\\b");
     std::string sentence;
     auto rest = of_library.cbegin();
     for (std::smatch part; std::regex_search(rest, of_library.cend(), part, kOption); rest = part.suffix().first) {
-        std::string name = part.str(1);
+        std::string name = part.str(1) == "series_uid" ? "series" : part.str(1);
         std::replace(name.begin(), name.end(), '_', '-');
         sentence += part.prefix().str() + "--" + name;
     }

@@ -25,6 +25,7 @@ from .errors import (
     Error,
     FileError,
     InvalidInputError,
+    MissingFileError,
     SingularSystemError,
     TooLargeError,
     UnsupportedError,

@@ -46,6 +46,10 @@ class FileError(Error, OSError):
     kind = "io"
 
 
+class MissingFileError(FileError, FileNotFoundError):
+    """There is no file or folder at a path that was to be read."""
+
+
 class SingularSystemError(Error, ArithmeticError):
     """The linear system has no unique solution."""
 

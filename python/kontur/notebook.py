@@ -55,10 +55,6 @@ def _picture(mesh, contours, image=None):
     return _core.make_picture(mesh, contours, image, width_px=_WIDTH_PX, height_px=_HEIGHT_PX)
 
 
-def _nothing():
-    return _core.TriangleMesh(numpy.zeros((0, 3)), numpy.zeros((0, 3), int))
-
-
 def _report_rows(report):
     rows = [
         ("volume", f"{report.mask_volume_ml:.4g} ml in {report.mask_voxels} voxels, {report.mask_components} component(s)"),
@@ -83,7 +79,7 @@ def _segmentation_html(segmentation):
 
 def _contours_html(contours):
     rows = [("contours", len(contours)), ("points", contours.point_count), ("extent (LPS)", _box_mm(contours.bounding_box))]
-    return _page(contours, rows, _picture(_nothing(), contours), contours.name)
+    return _page(contours, rows, _picture(None, contours), contours.name)
 
 
 def _mesh_html(mesh):

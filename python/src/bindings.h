@@ -27,6 +27,8 @@ void bind_crossings(py::module_& m, py::module_& stages);
 void bind_curves(py::module_& m, py::module_& stages);
 void bind_labels(py::module_& m);
 void bind_editor(py::module_& m);
+void bind_corrections(py::module_& m);
+void bind_derivation(py::module_& m);
 void bind_measures(py::module_& m);
 void bind_findings(py::module_& m);
 void bind_section_checks(py::module_& m);

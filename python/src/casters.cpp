@@ -58,6 +58,9 @@ py::array array_from(py::handle source) {
     return py::array::ensure(source);
 }
 
+MissingFile::MissingFile(const std::filesystem::path& path)
+    : Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::generic_category().message(ENOENT)) {}
+
 std::span<const Vec3> points_of(const ArrayOf<double>& array) {
     if (array.size() == 0) return {};
     if (array.ndim() != 2 || array.shape(1) != 3)

@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -34,6 +35,17 @@ template <class Value>
 using ArrayOf = py::array_t<Value, py::array::c_style | py::array::forcecast>;
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<std::uint32_t, 3>) == 3 * sizeof(std::uint32_t));
+
+/// Nothing is at a path that was to be read: MissingFileError in Python.
+class MissingFile : public Error {
+public:
+    explicit MissingFile(const std::filesystem::path& path);
+};
+
+/// A file or folder to be read. As an argument it throws MissingFile where there is none.
+struct ExistingPath : std::filesystem::path {
+    using path::path;
+};
 
 /// "(4, 3)"
 std::string shape_text(const py::array& array);
@@ -171,7 +183,8 @@ struct word_caster {
             value = candidate;
             return true;
         }
-        throw value_error("'" + word + "' is none of " + kontur::python::choices<Enum>());
+        throw kontur::Error(kontur::ErrorKind::invalid_input,
+                            "'" + word + "' is none of " + kontur::python::choices<Enum>());
     }
     static handle cast(Enum source, return_value_policy, handle) { return str(kontur::python::word_of(source)).release(); }
 };
@@ -192,6 +205,21 @@ template <>
 struct type_caster<kontur::Hand> : word_caster<kontur::Hand> {};
 template <>
 struct type_caster<kontur::HoleEncoding> : word_caster<kontur::HoleEncoding> {};
+
+template <>
+struct type_caster<kontur::python::ExistingPath> {
+    PYBIND11_TYPE_CASTER(kontur::python::ExistingPath, make_caster<std::filesystem::path>::name);
+
+    bool load(handle source, bool convert) {
+        make_caster<std::filesystem::path> path;
+        if (!path.load(source, convert)) return false;
+        value = {cast_op<std::filesystem::path&>(path)};
+        std::error_code failure;
+        if (std::filesystem::status(value, failure).type() == std::filesystem::file_type::not_found)
+            throw kontur::python::MissingFile(value);
+        return true;
+    }
+};
 
 template <class Value>
 struct pyobject_caster<kontur::python::ArrayOf<Value>> {
@@ -215,7 +243,8 @@ struct type_caster<kontur::Vec3> {
         const auto array = kontur::python::numbers_of<double>(source);
         if (!array) return false;
         if (array.ndim() != 1 || array.size() != 3)
-            throw value_error("an array has the shape " + kontur::python::shape_text(array) + "; (3,) is needed");
+            throw kontur::Error(kontur::ErrorKind::invalid_input,
+                                "an array has the shape " + kontur::python::shape_text(array) + "; (3,) is needed");
         value = {array.at(0), array.at(1), array.at(2)};
         return true;
     }
@@ -285,7 +314,9 @@ struct type_caster<kontur::Box3> {
         if (!corners.load(source, convert)) return false;
         const auto& c = cast_op<std::vector<kontur::Vec3>&>(corners);
         if (c.size() != 2)
-            throw value_error("a box has " + std::to_string(c.size()) + " corners; the lowest and the highest are needed");
+            throw kontur::Error(
+                kontur::ErrorKind::invalid_input,
+                "a box has " + std::to_string(c.size()) + " corners; the lowest and the highest are needed");
         value = {c[0], c[1]};
         return true;
     }

@@ -35,6 +35,18 @@ std::string given_text(py::handle value);
 [[noreturn]] void refuse_argument(const std::string& function, const std::string& parameter, const std::string& needed,
                                   py::handle given);
 
+/// False for a value of another type. One of the right type that cannot be used throws Error, which names the parameter.
+template <class Caster>
+bool loads(Caster& caster, const std::string& parameter, py::handle value) {
+    try {
+        return caster.load(value, true);
+    } catch (const MissingFile&) {
+        throw;
+    } catch (const Error& error) {
+        throw error.with_context(parameter);
+    }
+}
+
 /// Stands for a parameter until the function is called.
 template <class Parameter>
 struct Given {
@@ -57,7 +69,7 @@ public:
         // None is null for all types of ours, of which there are no references.
         constexpr bool kIsObject =
             std::is_base_of_v<py::detail::type_caster_generic, Caster> && !std::is_pointer_v<Parameter>;
-        if (!caster_.load(given.value, true) || (kIsObject && given.value.is_none()))
+        if (!loads(caster_, parameter, given.value) || (kIsObject && given.value.is_none()))
             refuse_argument(function, parameter, needed_text<Parameter>(), given.value);
     }
     decltype(auto) pass() { return py::detail::cast_op<Parameter>(std::move(caster_)); }

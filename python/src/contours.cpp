@@ -33,6 +33,24 @@ Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane
     return contour;
 }
 
+using SurfaceArgument = std::variant<std::vector<SurfacePoint>, ArrayOf<double>>;
+
+/// Throws Error(invalid_input) for an array of another shape than (n, 3) and (n, 6).
+std::vector<SurfacePoint> surface_points(const SurfaceArgument& given) {
+    if (const auto* points = std::get_if<std::vector<SurfacePoint>>(&given)) return *points;
+    const auto& array = std::get<ArrayOf<double>>(given);
+    if (array.ndim() != 2 || (array.shape(1) != 3 && array.shape(1) != 6))
+        throw Error(ErrorKind::invalid_input,
+                    "surface: an array has the shape " + shape_text(array) + "; (n, 3) or (n, 6) is needed");
+    std::vector<SurfacePoint> points;
+    for (py::ssize_t n = 0; n < array.shape(0); ++n) {
+        const double* row = array.data(n, 0);
+        points.push_back({{row[0], row[1], row[2]}, {}});
+        if (array.shape(1) == 6) points.back().outward = Vec3{row[3], row[4], row[5]};
+    }
+    return points;
+}
+
 bool equal(const Contour& a, const Contour& b) {
     return a.plane == b.plane && a.points == b.points && a.closed == b.closed && a.hole == b.hole && a.end == b.end &&
            a.inside == b.inside && a.weight == b.weight;
@@ -178,7 +196,8 @@ name : str
     The structure's name.
 interior, exterior : array_like, shape (n, 3), optional
     Points in mm that must lie inside, or outside, of the object.
-surface : sequence of SurfacePoint
+surface : sequence of SurfacePoint or array_like, shape (n, 3) or (n, 6)
+    Single points on the surface; six numbers are a position and a direction out of the object.
 empty_planes : sequence of Plane
     Planes that were looked at, and in which nothing of the object is seen.
 attributes : StructureAttributes, optional
@@ -195,13 +214,13 @@ Examples
     constructor(
         set,
         [](std::vector<Contour> contours, std::string name, const std::optional<std::vector<Vec3>>& interior,
-           const std::optional<std::vector<Vec3>>& exterior, std::vector<SurfacePoint> surface,
+           const std::optional<std::vector<Vec3>>& exterior, const SurfaceArgument& surface,
            std::vector<Plane> empty_planes, std::optional<StructureAttributes> attributes) {
             return ContourSet{std::move(name),
                               std::move(contours),
                               interior.value_or(std::vector<Vec3>{}),
                               exterior.value_or(std::vector<Vec3>{}),
-                              std::move(surface),
+                              surface_points(surface),
                               std::move(empty_planes),
                               std::move(attributes).value_or(StructureAttributes{})};
         },

@@ -20,8 +20,10 @@ std::string type_text() {
     else if constexpr (std::is_integral_v<Value>) return "int";
     else if constexpr (std::is_floating_point_v<Value>) return "float";
     else if constexpr (std::is_same_v<Value, std::string>) return "str";
-    else if constexpr (std::is_same_v<Value, std::array<double, 3>>) return "(float, float, float)";
+    else if constexpr (std::is_same_v<Value, std::array<double, 3>>) return "sequence of 3 float";
     else if constexpr (std::is_same_v<Value, Ball3>) return "(array_like, float)";
+    else if constexpr (requires(Value value) { value.size(); })
+        return "sequence of " + type_text<typename Value::value_type>();
     else return type_text<typename Value::value_type>() + " or None";
 }
 
@@ -35,7 +37,7 @@ public:
         using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
         const auto set = [name, member](Options& options, py::handle value) {
             py::detail::make_caster<Value> caster;
-            if (!caster.load(value, true))
+            if (!loads(caster, name, value))
                 throw py::type_error(std::string(name) + ": " + type_text<Value>() + " is needed, not " +
                                      py::repr(value).cast<std::string>());
             std::invoke(member, options) = py::detail::cast_op<Value&>(caster);

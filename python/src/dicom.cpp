@@ -117,7 +117,7 @@ label : str
            py::arg("path"));
     define(
         m, "read_rtstruct", "Reads a DICOM RT structure set with all its ROIs; holes are marked: StructureSet.",
-        [](const fs::path& path) { return unlocked([&] { return read_rtstruct(path); }); }, py::arg("path"));
+        [](const ExistingPath& path) { return unlocked([&] { return read_rtstruct(path); }); }, py::arg("path"));
     define(
         m, "select_roi", "The Roi of this name or number; without either, the only one that has contours.",
         [](const StructureSet& structures, const std::optional<RoiName>& name_or_number) {
@@ -129,7 +129,8 @@ label : str
 void bind_writing(py::module_& m) {
     const auto keywords = Keywords<WriteRtstructOptions>()
                               .field("holes", &WriteRtstructOptions::holes, "How the holes of a slice are stored.")
-                              .field("series_description", &WriteRtstructOptions::series_description, "");
+                              .field("series_description", &WriteRtstructOptions::series_description, "")
+                              .field("series_number", &WriteRtstructOptions::series_number, "0: the time of day, hhmmss.");
     define(
         m, "write_rtstruct", R"(Writes a DICOM RT structure set that refers to the images it was made on.
 
@@ -163,7 +164,7 @@ void bind_dicom(py::module_& m) {
            &looks_like_dicom, py::arg("path"));
     define(
         m, "list_dicom_series", "The volumes in a folder, from the headers: list of DicomSeries.",
-        [](const fs::path& folder) { return unlocked([&] { return list_dicom_series(folder); }); }, py::arg("folder"));
+        [](const ExistingPath& folder) { return unlocked([&] { return list_dicom_series(folder); }); }, py::arg("folder"));
     define(
         m, "read_dicom_slice", R"(Reads one slice alone, as an image one voxel deep: for previews.
 
@@ -178,7 +179,7 @@ Returns
 Image
     As thick as the file says, or 1 mm.
 )",
-        [](const fs::path& path, std::int64_t frame) { return unlocked([&] { return read_dicom_slice(path, frame); }); },
+        [](const ExistingPath& path, std::int64_t frame) { return unlocked([&] { return read_dicom_slice(path, frame); }); },
         py::arg("path"), py::arg("frame") = 1);
     const auto keywords = series_keywords();
     define(
@@ -196,7 +197,7 @@ Returns
 -------
 DicomVolume
 )",
-        [keywords](const fs::path& path, const py::object& progress, const py::object& stop, const py::kwargs& given) {
+        [keywords](const ExistingPath& path, const py::object& progress, const py::object& stop, const py::kwargs& given) {
             const DicomSeriesOptions options = keywords.parse("read_dicom_series", given);
             return run({progress, stop}, [&](const Work& work) { return read_dicom_series(path, options, work); });
         },
@@ -214,7 +215,7 @@ Returns
 -------
 DicomGrid
 )",
-        [keywords](const fs::path& path, const py::object& progress, const py::object& stop, const py::kwargs& given) {
+        [keywords](const ExistingPath& path, const py::object& progress, const py::object& stop, const py::kwargs& given) {
             const DicomSeriesOptions options = keywords.parse("read_dicom_grid", given);
             return run({progress, stop}, [&](const Work& work) { return read_dicom_grid(path, options, work); });
         },

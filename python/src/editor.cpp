@@ -53,6 +53,8 @@ void bind_editor_itself(py::module_& m) {
     surface.def_readonly("residual", &EditedSurface::residual, "Residual: at all drawn points; finished surfaces only.");
     surface.def_readonly("near_lines", &EditedSurface::near_lines,
                          "list of NearLines: lines of one plane that count as one or leave a thin wall.");
+    surface.def_readonly("section_check", &EditedSurface::section_check,
+                         "SectionCheck: against what was drawn; finished surfaces only.");
     surface.def_readonly("solves", &EditedSurface::solves, "int: how often a linear system was solved for it.");
     surface.def_readonly("image", &EditedSurface::image, "ImageReport: what became of the image; finished surfaces only.");
     surface.def_property_readonly(

@@ -9,6 +9,18 @@
 #include "roi_name.h"
 
 namespace kontur::python {
+
+template <>
+struct Words<Curves> {
+    static constexpr std::array values{Curves::spline, Curves::polygon};
+};
+
+}  // namespace kontur::python
+
+template <>
+struct pybind11::detail::type_caster<kontur::Curves> : word_caster<kontur::Curves> {};
+
+namespace kontur::python {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,32 +50,59 @@ roi : str or int, optional
     RT structure sets: the ROI's name or number; needed when several have contours.
 plane_tolerance_mm : float
     For curves whose plane must be fitted.
+curves : {'spline', 'polygon'}, optional
+    The line between the points of 3D Slicer's curves: as it draws them, or straight; None: splines.
 @on_note
 
 Returns
 -------
 ContourSet
 )",
-        [](const std::variant<fs::path, std::vector<fs::path>>& paths, const std::optional<RoiName>& roi,
-           double plane_tolerance_mm, const py::object& on_note) {
-            const ReadContoursOptions options{roi_name(roi), plane_tolerance_mm};
-            ReadContours read =
-                unlocked([&] { return std::visit([&](const auto& path) { return read_contours(path, options); }, paths); });
+        [](const std::variant<ExistingPath, std::vector<ExistingPath>>& given, const std::optional<RoiName>& roi,
+           double plane_tolerance_mm, const std::optional<Curves>& curves, const py::object& on_note) {
+            const ReadContoursOptions options{roi_name(roi), plane_tolerance_mm, curves};
+            ReadContours read = unlocked([&] {
+                if (const auto* path = std::get_if<ExistingPath>(&given)) return read_contours(*path, options);
+                const auto& paths = std::get<std::vector<ExistingPath>>(given);
+                return read_contours(std::vector<fs::path>(paths.begin(), paths.end()), options);
+            });
             give_notes(read.notes, on_note);
             return std::move(read.contours);
         },
-        py::arg("path"), py::kw_only(), py::arg("roi") = py::none(), py::arg("plane_tolerance_mm") = tolerance, kOnNote);
+        py::arg("path"), py::kw_only(), py::arg("roi") = py::none(), py::arg("plane_tolerance_mm") = tolerance,
+        py::arg("curves") = py::none(), kOnNote);
     define(m, "write_contours",
            "Writes 3D Slicer's markups to a name ending in .mrk.json, kontur's JSON to any other .json.",
            writer(&write_contours), py::arg("path"), py::arg("contours"), made);
-    define(m, "read_contour_json", "The ContourSet of kontur's own contour file.", &read_contour_json, py::arg("path"));
-    define(m, "read_planes_json", "The planes of kontur's contour file, with or without contours: list of Plane.",
-           &read_planes_json, py::arg("path"));
+    define(
+        m, "read_contour_json", R"(What kontur's own contour file holds.
+
+Parameters
+----------
+path : path
+
+Returns
+-------
+ContourSet
+)",
+        [](const ExistingPath& path) { return read_contour_json(path); }, py::arg("path"));
+    define(
+        m, "read_planes_json", R"(The planes of kontur's contour file, with or without contours.
+
+Parameters
+----------
+path : path
+
+Returns
+-------
+list of Plane
+)",
+        [](const ExistingPath& path) { return read_planes_json(path); }, py::arg("path"));
     define(m, "write_contour_json", "Writes kontur's contour file; reading it gives the same numbers.",
            writer(&write_contour_json), py::arg("path"), py::arg("contours"), made);
     define(
         m, "read_mesh", "The TriangleMesh of an STL, PLY or OBJ file, turned to LPS where it declares RAS.",
-        [](const fs::path& path) { return unlocked([&] { return read_mesh(path); }); }, py::arg("path"));
+        [](const ExistingPath& path) { return unlocked([&] { return read_mesh(path); }); }, py::arg("path"));
     define(
         m, "write_mesh", R"(Writes a mesh as .stl, .ply or .obj, in mm and LPS, whole or not at all.
 
@@ -93,7 +132,7 @@ Returns
 -------
 dict of str to str
 )",
-        [](const fs::path& path) {
+        [](const ExistingPath& path) {
             py::dict items;
             for (const auto& [name, value] : unlocked([&] { return read_provenance(path); })) items[py::str(name)] = value;
             return items;

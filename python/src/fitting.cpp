@@ -37,7 +37,10 @@ Keywords<Preparing> prepare_keywords() {
         .field("fill_rule", &Preparing::fill_rule, "What contours inside others mean.")
         .field("gaps", option(&PrepareOptions::gaps), "Keep normal constraints clear of the opposite wall.")
         .field("click_margin_mm", option(&PrepareOptions::click_margin_mm),
-               "How far f must be from 0 at interior and exterior points.")
+               "How far f must be from 0 at interior and exterior points; None: 0.45 % of the drawing's diameter.")
+        .field(
+            "conflicts", [](Preparing& p) -> Conflicts& { return p.options.reconcile.conflicts; },
+            "Which of two contours that contradict each other yields: both, the earlier one, or none.")
         .field("bounds", option(&PrepareOptions::bounds),
                "Keep f on the drawn planes' sides, and end the object beyond the last of them.")
         .field("copy_shift_mm", option(&PrepareOptions::copy_shift_mm),
@@ -55,8 +58,10 @@ Keywords<Options>& solve_fields(Keywords<Options>& keywords, Access access) {
                "Centre and radius in mm of what was drawn, as `ContourSet.smallest_ball`: the unit, of which the screened "
                "kernel's length is 4; None: the smallest one of all constraints (`fit`: the prepared contours').")
         .field("solver", to(&SolveOptions::solver), "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
-        .field("smoothing", to(&SolveOptions::smoothing), "On unit coordinates; 0 interpolates exactly.")
-        .field("tolerance_mm", to(&SolveOptions::tolerance_mm), "Of the iterative solver, at all constraints.")
+        .field("smoothing", to(&SolveOptions::smoothing),
+               "On unit coordinates; 0 interpolates exactly; None: 1e-5, and 0 where `fit` takes in-plane normals.")
+        .field("tolerance_mm", to(&SolveOptions::tolerance_mm),
+               "Of the iterative solver, at all constraints; None: 1.5e-5 of the ball's diameter.")
         .field("max_iterations", to(&SolveOptions::max_iterations), "Of the iterative solver.")
         .field("max_memory_mb", to(&SolveOptions::max_memory_mb), "A dense matrix larger than this is refused.");
 }
@@ -82,21 +87,18 @@ Keywords<FitOptions> fit_keywords() {
         .field("most_points", &FitOptions::most_points, "The last fit uses about as many points; 0: all.")
         .field("most_solves", &FitOptions::most_solves,
                "At most so many with all points, while other bounds should be held than were; 1: whatever is held.")
-        .field(
-            "normal_offset_mm", [](FitOptions& o) -> double& { return o.place.normal_offset_mm; },
-            "Length of the normal constraints.")
-        .field(
-            "both_sides", [](FitOptions& o) -> bool& { return o.place.both_sides; },
-            "Normal constraints inside as well as outside, at about every second point.")
-        .field(
-            "normal_spacing_mm", [](FitOptions& o) -> double& { return o.place.normal_spacing_mm; },
-            "Along a line, from one point with normal constraints to the next, at least.")
-        .field(
-            "slope_noise", [](FitOptions& o) -> double& { return o.place.slope_noise; },
-            "Standard deviation of the slopes: of a normal constraint this times its length.")
-        .field(
-            "merge_distance_mm", [](FitOptions& o) -> double& { return o.place.merge_distance_mm; },
-            "A constraint closer than this to an earlier one is left out.");
+        .field("normal_offset_mm", &FitOptions::normal_offset_mm,
+               "Length of the normal constraints; None: 1.35 % of the drawing's diameter, in-plane normals 0.45 %.")
+        .field("both_sides", &FitOptions::both_sides,
+               "Normal constraints inside as well as outside, at about every second point; None: with surface normals.")
+        .field("normal_spacing_mm", &FitOptions::normal_spacing_mm,
+               "Along a line, from one point with normal constraints to the next, at least; None: 0.75 of their length, "
+               "in-plane normals 0.")
+        .field("slope_noise", &FitOptions::slope_noise,
+               "Standard deviation of the slopes: of a normal constraint this times its length; None: 0.21, in-plane "
+               "normals 0.")
+        .field("merge_distance_mm", &FitOptions::merge_distance_mm,
+               "A constraint closer than this to an earlier one is left out; None: 0.06 % of the drawing's diameter.");
     return solve_fields(keywords, [](FitOptions& o) -> SolveOptions& { return o.solve; });
 }
 
@@ -209,7 +211,8 @@ Contour
            static_cast<Contour (*)(const Contour&, int)>(&subdivide), py::arg("contour"), py::arg("least_segments") = 0);
     const auto preparing = prepare_keywords();
     define(
-        m, "prepare", R"(Reduces, subdivides and orients every contour.
+        m, "prepare",
+        R"(Reduces, subdivides and orients every contour, finds bounds, and trusts contours less where they contradict.
 
 Parameters
 ----------
@@ -223,11 +226,9 @@ PreparedContours
         [preparing](const ContourSet& contours, const py::kwargs& given) {
             const Preparing asked = preparing.parse("prepare", given);
             return unlocked([&] {
-                Drawing drawing(contours, asked.fill_rule);
-                std::vector<std::string> notes;
-                for (const FoundSide& found : find_sides(drawing.tidied)) notes.push_back(sentence(found));
+                const Drawing drawing = read_drawing(contours, asked.fill_rule);
                 PreparedContours prepared = prepare(drawing, asked.options);
-                prepared.notes.insert(prepared.notes.begin(), notes.begin(), notes.end());
+                prepared.notes.insert(prepared.notes.begin(), drawing.notes.begin(), drawing.notes.end());
                 return prepared;
             });
         },
@@ -237,7 +238,7 @@ PreparedContours
             .field("conflicts", &ReconcileOptions::conflicts,
                    "Which of two contours yields: both, the earlier one, or none.")
             .field("offset_mm", &ReconcileOptions::offset_mm,
-                   "Length of the normal constraints: disagreements far below it do not matter.")
+                   "Disagreements far below it do not matter; None: 0.45 % of the drawing's diameter.")
             .field("strength", &ReconcileOptions::strength,
                    "A point in the middle of a disagreement as large as the offset gets 1 / (1 + strength) trust.")
             .field("reach", &ReconcileOptions::reach,
@@ -249,7 +250,7 @@ Parameters
 ----------
 prepared : PreparedContours
 crossings : sequence of Crossing
-    From `find_crossings` on the set that was prepared.
+    From `find_crossings` on the set that was prepared with ``conflicts="exact"``.
 @options
 
 Returns
@@ -257,7 +258,7 @@ Returns
 PreparedContours
 )",
         [reconciling](PreparedContours prepared, const std::vector<Crossing>& crossings, const py::kwargs& given) {
-            reconcile(prepared.points, crossings, reconciling.parse("reconcile", given));
+            reconcile(prepared.points, crossings, prepared.ball.diameter(), reconciling.parse("reconcile", given));
             return prepared;
         },
         py::arg("prepared"), py::arg("crossings"), py::kw_only(), KeywordText(reconciling));
@@ -307,7 +308,7 @@ SingularSystemError
 Examples
 --------
 >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [.2, .2, .2]])
->>> solution = kontur.stages.solve(kontur.stages.ConstraintSet(corners, [0, 0, 0, 0, 1]), solver="dense")
+>>> solution = kontur.stages.solve(kontur.stages.ConstraintSet(corners, [0, 0, 0, 0, 1]), solver="dense", smoothing=0)
 >>> bool(abs(solution.function(corners[4]) - 1) < 1e-9)
 True
 )",

@@ -143,12 +143,13 @@ ndarray, shape (..., 3), float64
         return py::str("<Residual: max {:.3g} mm, rms {:.3g} mm>").format(r.max_mm, r.rms_mm);
     });
     define(
-        stages, "residual", R"(First-order distance |f| / |grad f| of the surface from every drawn point.
+        stages, "residual", R"(First-order distance |f| / |grad f| of the surface from every drawn point of a border.
 
 Parameters
 ----------
 function : ImplicitFunction
 contours : ContourSet
+    Its holes are known; lines within the object do not count.
 threads : int
     0: the machine's.
 

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 Keywords<ReadImageOptions> read_keywords() {
     return Keywords<ReadImageOptions>()
-        .field("frame", &ReadImageOptions::frame, "Which frame of a 4D image, from 0.")
+        .field("frame", &ReadImageOptions::frame, "Which frame of a 4D image, from 1.")
         .field("prefer", &ReadImageOptions::prefer, "Which transform of a NIfTI file counts when its two differ.")
         .field("allow_missing_geometry", &ReadImageOptions::allow_missing_geometry,
                "Accept an image that does not say where it lies in the patient.")
@@ -57,7 +57,7 @@ Image
 )";
     define(
         m, "read_image", image_help.c_str(),
-        [keywords](const fs::path& path, const py::object& on_note, const py::kwargs& given) {
+        [keywords](const ExistingPath& path, const py::object& on_note, const py::kwargs& given) {
             return read_with_notes(keywords.parse("read_image", given), on_note,
                                    [&](const ReadImageOptions& options) { return read_image(path, options); });
         },
@@ -69,7 +69,7 @@ Grid
 )";
     define(
         m, "read_grid", grid_help.c_str(),
-        [keywords](const fs::path& path, const py::object& on_note, const py::kwargs& given) {
+        [keywords](const ExistingPath& path, const py::object& on_note, const py::kwargs& given) {
             return read_with_notes(keywords.parse("read_grid", given), on_note,
                                    [&](const ReadImageOptions& options) { return read_grid(path, options); });
         },
@@ -83,7 +83,7 @@ Mask
 )";
     define(
         m, "read_mask", mask_help.c_str(),
-        [keywords](const fs::path& path, std::optional<std::int64_t> label, const py::object& on_note,
+        [keywords](const ExistingPath& path, std::optional<std::int64_t> label, const py::object& on_note,
                    const py::kwargs& given) {
             return read_with_notes(keywords.parse("read_mask", given), on_note,
                                    [&](const ReadImageOptions& options) { return read_mask(path, label, options); });

@@ -7,11 +7,11 @@
 namespace kontur::python {
 namespace {
 
+void raise(const py::object& exception) { PyErr_SetObject(py::type::of(exception).ptr(), exception.ptr()); }
+
 /// Raises the class of kontur.errors that the error's kind names.
 void raise(const Error& error) {
-    const py::object exception =
-        py::module_::import("kontur.errors").attr("from_kind")(std::string(name(error.kind())), error.what());
-    PyErr_SetObject(py::type::of(exception).ptr(), exception.ptr());
+    raise(py::module_::import("kontur.errors").attr("from_kind")(std::string(name(error.kind())), error.what()));
 }
 
 /// The names of all kinds, which the classes of kontur.errors must match.
@@ -33,6 +33,8 @@ PYBIND11_MODULE(_core, m) {
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
             if (pointer) std::rethrow_exception(pointer);
+        } catch (const MissingFile& error) {
+            raise(py::module_::import("kontur.errors").attr("MissingFileError")(error.what()));
         } catch (const kontur::Error& error) {
             raise(error);
         } catch (const std::bad_alloc&) {
@@ -65,6 +67,8 @@ PYBIND11_MODULE(_core, m) {
     bind_labels(m);
     bind_uncertainty(m);
     bind_editor(m);
+    bind_corrections(m);
+    bind_derivation(m);
     bind_measures(m);
     bind_findings(m);
     bind_pictures(m);

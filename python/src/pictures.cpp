@@ -32,7 +32,8 @@ void bind_pictures(py::module_& m) {
 
 Parameters
 ----------
-mesh : TriangleMesh
+mesh : TriangleMesh or None
+    None: a picture of the contours alone.
 contours : ContourSet
 image : Image, optional
     Without it the slices stand on a plain ground.
@@ -52,12 +53,13 @@ Returns
 ndarray, shape (height_px, width_px, 3), uint8
     sRGB, rows from top to bottom.
 )",
-        [](const TriangleMesh& mesh, const ContourSet& contours, const Image* image, int width_px, int height_px,
+        [](const TriangleMesh* mesh, const ContourSet& contours, const Image* image, int width_px, int height_px,
            const std::string& title, const Facts& facts, const std::optional<WindowPair>& window, int threads) {
-            PictureOptions options{width_px, height_px, title, {}, {}};
+            PictureOptions options{width_px, height_px, title, {}, {}, mesh != nullptr};
             for (const auto& [caption, value] : facts) options.facts.push_back({caption, value});
             if (window) options.window = Window{window->first, window->second};
-            return pixels_of(unlocked([&] { return make_picture(mesh, contours, image, options, {.threads = threads}); }));
+            const TriangleMesh none;
+            return pixels_of(unlocked([&] { return make_picture(mesh ? *mesh : none, contours, image, options, {.threads = threads}); }));
         },
         py::arg("mesh"), py::arg("contours"), py::arg("image") = py::none(), py::kw_only(),
         py::arg("width_px") = defaults.width_px, py::arg("height_px") = defaults.height_px, py::arg("title") = "",

@@ -15,7 +15,7 @@ bool is_orthonormal(const Plane& plane) {
 Plane plane_from(const Vec3& origin, const Vec3& normal, const std::optional<Vec3>& u, const std::optional<Vec3>& v) {
     if (!(is_finite(origin) && is_finite(normal) && norm(normal) > 0))
         throw Error(ErrorKind::invalid_input, "a plane needs a finite origin and a normal that is not 0");
-    if (u.has_value() != v.has_value()) throw py::value_error("u and v are given together or not at all");
+    if (u.has_value() != v.has_value()) throw Error(ErrorKind::invalid_input, "u and v are given together or not at all");
     if (!u) return make_plane(origin, normal);
     const Plane plane{origin, normal, *u, *v};
     if (!is_orthonormal(plane)) throw Error(ErrorKind::invalid_input, "a plane's normal, u and v are not orthonormal");

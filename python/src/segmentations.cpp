@@ -84,7 +84,7 @@ void bind_segmentations(py::module_& m) {
     define(
         m, "read_dicom_segmentation",
         "The DicomSegmentation of a file: its grid and segments, without voxels. Larger grids are refused.",
-        [](const fs::path& path, std::int64_t most) {
+        [](const ExistingPath& path, std::int64_t most) {
             return unlocked([&] { return read_dicom_segmentation(path, most); });
         },
         py::arg("path"), max_voxels);
@@ -105,7 +105,7 @@ Returns
 -------
 Image
 )",
-        [](const fs::path& path, std::optional<std::int64_t> segment, std::int64_t most, const py::object& on_note,
+        [](const ExistingPath& path, std::optional<std::int64_t> segment, std::int64_t most, const py::object& on_note,
            const py::object& progress, const py::object& stop) {
             DicomSeg seg =
                 run({progress, stop}, [&](const Work& work) { return read_dicom_seg(path, segment, most, work); });
@@ -129,7 +129,7 @@ Returns
 list of Mask
     In the order of `read_dicom_segmentation`, all on its grid.
 )",
-        [](const fs::path& path, std::int64_t most, const py::object& progress, const py::object& stop) {
+        [](const ExistingPath& path, std::int64_t most, const py::object& progress, const py::object& stop) {
             return run({progress, stop}, [&](const Work& work) { return read_dicom_seg_masks(path, most, work); });
         },
         py::arg("path"), max_voxels, py::kw_only(), kProgress, kStop);
@@ -139,6 +139,7 @@ list of Mask
     };
     const auto keywords = Keywords<WriteDicomSegOptions>()
                               .field("series_description", &WriteDicomSegOptions::series_description, "")
+                              .field("series_number", &WriteDicomSegOptions::series_number, "0: the time of day, hhmmss.")
                               .field("algorithm_name", algorithm(&DicomAlgorithm::name),
                                      "How the segments were made, for those who audit them; empty: nothing is said.")
                               .field("algorithm_version", algorithm(&DicomAlgorithm::version), "")
@@ -171,7 +172,9 @@ images : DicomSeries
             const WriteDicomSegOptions options = options_of("write_dicom_seg", given, provenance);
             const Image volume = labels_from(labels);
             give_notes(run({progress, stop},
-                           [&](const Work& work) { return write_dicom_seg(path, volume, segments, images, options, work); }),
+                           [&](const Work& work) {
+                               return write_dicom_seg(path, {volume, segments}, images, options, work);
+                           }),
                        on_note);
         },
         py::arg("path"), py::arg("labels"), py::arg("segments"), py::arg("images"), py::kw_only(), kOnNote, kProgress, kStop,
@@ -197,10 +200,11 @@ images : DicomSeries
                      const DicomSeries& images, const py::object& on_note, const py::object& progress,
                      const py::object& stop, const py::object& provenance, const py::kwargs& given) {
             const WriteDicomSegOptions options = options_of("write_dicom_seg_masks", given, provenance);
-            give_notes(
-                run({progress, stop},
-                    [&](const Work& work) { return write_dicom_seg_masks(path, masks, segments, images, options, work); }),
-                on_note);
+            give_notes(run({progress, stop},
+                           [&](const Work& work) {
+                               return write_dicom_seg_masks(path, {masks, segments}, images, options, work);
+                           }),
+                       on_note);
         },
         py::arg("path"), py::arg("masks"), py::arg("segments"), py::arg("images"), py::kw_only(), kOnNote, kProgress, kStop,
         py::arg("provenance") = py::none(), KeywordText(keywords));

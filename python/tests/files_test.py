@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Readers and writers; the formats themselves are tested in C++."""
+import json
 import logging
 
 import kontur
@@ -51,6 +52,41 @@ def test_contours_come_back(tmp_path, case):
         kontur.StructureAttributes(color=(0, 0, 256))
     both = kontur.read_contours([tmp_path / "a.json", tmp_path / "a.mrk.json"])
     assert len(both) == 12
+
+
+def test_3d_slicers_curves_are_splines_or_polygons(tmp_path):
+    schema = "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.3.json#"
+    points = [{"position": [20 * numpy.cos(a), 20 * numpy.sin(a), 0.0]} for a in numpy.arange(6) * numpy.pi / 3]
+    path = tmp_path / "ring.mrk.json"
+    path.write_text(json.dumps({"@schema": schema, "markups": [{"type": "ClosedCurve", "controlPoints": points}]}))
+    notes = []
+    drawn = kontur.read_contours(path, on_note=notes.append)
+    assert drawn.point_count > 30 and "1 curve as the spline that 3D Slicer draws" in notes[0]
+    assert kontur.read_contours(path, curves="spline", on_note=notes.append) == drawn
+    notes.clear()
+    straight = kontur.read_contours(path, curves="polygon", on_note=notes.append)
+    assert straight.point_count == 6 and notes == []
+    with pytest.raises(ValueError, match="'bezier' is none of"):
+        kontur.read_contours(path, curves="bezier")
+
+
+READERS = [kontur.read_contours, kontur.read_contour_json, kontur.read_planes_json, kontur.read_mesh, kontur.read_provenance,
+           kontur.read_image, kontur.read_grid, kontur.read_mask, kontur.read_rtstruct, kontur.list_dicom_series, kontur.read_dicom_slice,
+           kontur.read_dicom_grid, kontur.read_dicom_series, kontur.read_dicom_seg, kontur.read_dicom_seg_masks,
+           kontur.read_dicom_segmentation]
+
+
+@pytest.mark.parametrize("read", READERS, ids=lambda read: read.__name__)
+def test_a_missing_file_is_pythons_own_error_and_konturs(tmp_path, read):
+    with pytest.raises(FileNotFoundError, match=r"^cannot read \S+none\.nii: No such file or directory$") as caught:
+        read(tmp_path / "none.nii")
+    assert isinstance(caught.value, kontur.FileError) and caught.value.kind == "io"
+
+
+def test_of_several_files_the_missing_one_is_named(tmp_path, case):
+    kontur.write_contours(tmp_path / "a.json", case.contours)
+    with pytest.raises(kontur.MissingFileError, match="b.json"):
+        kontur.read_contours([tmp_path / "a.json", tmp_path / "b.json"])
 
 
 @pytest.mark.parametrize("name", ["a.stl", "a.ply", "a.obj", "a.vtk", "a.vtp"])

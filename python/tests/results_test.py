@@ -176,6 +176,15 @@ def test_notebooks_show_what_is_empty_or_says_html(oblique):
     assert "&lt;script&gt;&amp;" in empty._repr_html_()
 
 
+def test_a_picture_of_contours_alone_shows_their_lines_and_no_sentence_on_a_surface(case):
+    nothing = kontur.TriangleMesh(numpy.zeros((0, 3)), numpy.zeros((0, 3), int))
+    alone, empty = (kontur.make_picture(mesh, case.contours, width_px=640, height_px=400) for mesh in (None, nothing))
+    amber = (numpy.abs(alone.astype(int) - [255, 181, 41]) < 40).all(axis=2)
+    assert amber[:, :320].sum() > 500, "the lines in 3D"
+    white = [(picture[150:250, 60:260].min(axis=2) > 200).sum() for picture in (alone, empty)]
+    assert white[0] < white[1], "the words 'there is no surface'"
+
+
 def test_pictures_as_bytes_are_the_files(tmp_path, kidney, case):
     pixels = numpy.random.default_rng(1).integers(0, 256, (9, 7, 3), dtype="u1")
     kontur.write_png(tmp_path / "a.png", pixels, provenance={"made_by": "hand"})

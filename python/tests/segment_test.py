@@ -28,12 +28,8 @@ def test_the_kidney(case, kidney):
 
 
 def test_the_stages_make_what_segment_makes(case, kidney):
-    diameter = case.contours.diameter_mm
-    prepared = kontur.stages.reconcile(kontur.stages.prepare(case.contours), kontur.stages.find_crossings(case.contours),
-                                offset_mm=4.5e-3 * diameter)
-    fitted = kontur.stages.fit(prepared, normal_offset_mm=kidney.report.normal_offset_mm, both_sides=True,
-                        normal_spacing_mm=0.75 * kidney.report.normal_offset_mm, slope_noise=0.21, merge_distance_mm=6e-4 * diameter, smoothing=kidney.report.smoothing,
-                        tolerance_mm=1.5e-5 * diameter)
+    prepared = kontur.stages.prepare(case.contours)
+    fitted = kontur.stages.fit(prepared)
     assert (fitted.solves, fitted.bounded) == (kidney.report.solves, kidney.report.bounded)
     starts = numpy.concatenate([prepared.positions] + [contour.points for contour in case.contours.contours])
     surface = kontur.stages.track_surface_adaptively(fitted.function, case.grid, starts)
@@ -51,7 +47,7 @@ def test_of_two_contours_that_yield_the_heavier_yields_less():
         ring = numpy.stack([numpy.cos(angles), numpy.sin(angles), 0 * angles], axis=1)
         circles = [kontur.Contour(20 * ring, weight=weight), kontur.Contour(21.5 * ring[:, [2, 0, 1]])]
         contours = kontur.ContourSet(circles)
-        yielded = kontur.stages.reconcile(kontur.stages.prepare(contours), kontur.stages.find_crossings(contours))
+        yielded = kontur.stages.reconcile(kontur.stages.prepare(contours, conflicts="exact"), kontur.stages.find_crossings(contours))
         return min(yielded.trust[yielded.contours == 0]) / weight
 
     assert least_trust(9) > 3 * least_trust(1)
@@ -201,10 +197,33 @@ def test_wrong_options_are_refused_by_name(case):
         kontur.segment(case.contours, case.grid, qualty=0.5)
     with pytest.raises(TypeError, match="quality: float is needed, not 'high'"):
         kontur.segment(case.contours, case.grid, quality="high")
-    with pytest.raises(ValueError, match="'cubic' is none of {'screened', 'triharmonic', 'biharmonic'}"):
+    with pytest.raises(ValueError, match="^kernel: 'cubic' is none of {'screened', 'triharmonic', 'biharmonic'}"):
         kontur.segment(case.contours, case.grid, kernel="cubic")
     with pytest.raises(kontur.InvalidInputError, match="quality"):
         kontur.segment(case.contours, case.grid, quality=0)
+
+
+def test_words_and_arrays_that_cannot_be_used_are_named_by_their_argument(case):
+    points = case.contours[0].points
+    for name, refused in {
+        "end": lambda: kontur.Contour(points, end="square"),
+        "frame": lambda: kontur.Grid((2, 2, 2), numpy.eye(4), frame="XYZ"),
+        "among": lambda: kontur.suggest_planes(kontur.segment(case.contours, case.grid), case.contours, among="some"),
+        "origin": lambda: kontur.Plane([1, 2], [0, 0, 1]),
+        "interior": lambda: kontur.ContourSet([], interior=[[1, 2]]),
+        "surface": lambda: kontur.ContourSet([], surface=[[1, 2]]),
+    }.items():
+        with pytest.raises(kontur.InvalidInputError, match=f"^{name}: "):
+            refused()
+
+
+def test_points_on_the_surface_may_be_an_array():
+    positions = numpy.arange(6.0).reshape(2, 3)
+    plain = kontur.ContourSet([], surface=positions)
+    assert plain.surface == [kontur.SurfacePoint(row) for row in positions]
+    outward = numpy.hstack([positions, [[0, 0, 1], [1, 0, 0]]])
+    assert kontur.ContourSet([], surface=outward).surface == [kontur.SurfacePoint(row[:3], row[3:]) for row in outward]
+    assert kontur.ContourSet([], surface=numpy.empty((0, 3))).surface == []
 
 
 def test_options_out_of_their_range_are_refused_before_any_work(case, tmp_path):
@@ -309,7 +328,8 @@ def test_other_threads_run_meanwhile(case):
     ],
 )
 def test_each_kind_of_error_is_an_exception_of_its_own(tmp_path, oblique, error, builtin, kind, call):
-    (tmp_path / "empty.nii").write_bytes(b"")
+    for name in ("empty.nii", "mesh.xyz"):
+        (tmp_path / name).write_bytes(b"")
     kontur.write_image(tmp_path / "grid.nrrd", kontur.Image(numpy.zeros(oblique.shape, "u1"), oblique))
     with pytest.raises(error) as caught:
         call(tmp_path)

@@ -19,7 +19,7 @@ def test_a_grid_keeps_its_affine_in_either_frame(oblique):
     assert numpy.array_equal(oblique.affine("RAS"), ras)
     assert numpy.array_equal(oblique.affine("LPS"), oblique.index_to_mm)
     assert kontur.Grid(oblique.size, ras, frame="RAS") == oblique
-    with pytest.raises(ValueError, match="'LPS' or 'RAS', not 'LAS'"):
+    with pytest.raises(ValueError, match="'LPS' or 'RAS' is needed, not 'LAS'"):
         oblique.affine("LAS")
 
 

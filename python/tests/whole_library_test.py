@@ -21,7 +21,7 @@ SAME = {
     "ReadContours": "read_contours", "PictureFact": "make_picture", "RgbImage": "write_png", "Pixel": "EdgeMap", "PixelPosition": "EdgeMap",
     "DenseLiver": "dense_liver_case", "ErrorKind": "Error", "Severity": "Finding", "FindingKind": "Finding", "UnitFrame": "ImplicitFunction",
     "BoundaryPoint": "PreparedContours", "Work": "segment", "Affine3": "Grid", "Vec3": "Contour", "Index3": "Grid", "Box3": "grid_around",
-    "OutlineLine": "outline", "whole_mask": "Together", "MeshRegions": "write_region_mesh", "Window": "suggest_window",
+    "NamedStructure": "derive", "OutlineLine": "outline", "whole_mask": "Together", "MeshRegions": "write_region_mesh", "Window": "suggest_window",
 }
 
 
@@ -206,13 +206,13 @@ def test_findings_name_places(case):
 
 def test_constraints_solve_to_the_papers_surface(case):
     """What `fit` solves with in-plane normals, put together by hand."""
-    prepared = kontur.stages.prepare(case.contours, quality=0.3, bounds=False)
+    prepared = kontur.stages.prepare(case.contours, quality=0.3, bounds=False, conflicts="exact")
     assert prepared.bounds == []
     outside = prepared.positions + prepared.inplane_normals
     values = numpy.repeat([0, -1], len(prepared.positions))
     placed = kontur.stages.ConstraintSet(numpy.concatenate([prepared.positions, outside]), values)
     assert (placed.trust == 1).all()
-    direct = kontur.stages.solve(placed, solver="dense", ball=prepared.ball).function
+    direct = kontur.stages.solve(placed, solver="dense", smoothing=0, ball=prepared.ball).function
     fitted = kontur.stages.fit(prepared, normals="in-plane", normal_offset_mm=1, solver="dense").function
     at = case.contours.bounding_box.mean(axis=0)
     assert direct(at) == pytest.approx(float(fitted(at)), rel=1e-6)
@@ -225,7 +225,7 @@ def test_a_constraint_with_noise_is_followed_less_closely():
     for noise in (0, 0.5, 2):
         constraints = kontur.stages.ConstraintSet(centres, values, noise_mm=[0, 0, 0, 0, noise])
         assert constraints.noise_mm.tolist() == [0, 0, 0, 0, noise]
-        solution = kontur.stages.solve(constraints, solver="dense", ball=([2, 2, 2], 20))
+        solution = kontur.stages.solve(constraints, solver="dense", smoothing=0, ball=([2, 2, 2], 20))
         assert solution.function.frame_scale_mm == 20
         assert numpy.abs(solution.function(centres[:4])).max() < 1e-9
         missed.append(2 - float(solution.function(centres[4])))

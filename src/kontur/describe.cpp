@@ -12,7 +12,8 @@
 #include "kontur/fit/missed_clicks.h"
 #include "kontur/fit/residual.h"
 #include "kontur/measure/components.h"
-#include "kontur/shape/predicates.h"
+#include "kontur/shape/enclosed_area.h"
+#include "kontur/shape/section.h"
 
 namespace kontur {
 namespace {
@@ -74,9 +75,9 @@ void describe_fit(const PreparedContours& prepared, const FittedFunction& fit, c
     report.centres = fit.report.centres;
     report.kernel = options.solve.kernel;
     report.normals = options.normals;
-    report.normal_offset_mm = options.place.normal_offset_mm;
-    report.smoothing = options.solve.smoothing;
-    report.tolerance_mm = options.solve.tolerance_mm;
+    report.normal_offset_mm = *options.normal_offset_mm;
+    report.smoothing = *options.solve.smoothing;
+    report.tolerance_mm = *options.solve.tolerance_mm;
     report.solver = fit.report.solver;
     report.solves = fit.solves;
     report.iterations = fit.iterations;
@@ -87,9 +88,9 @@ void describe_fit(const PreparedContours& prepared, const FittedFunction& fit, c
             options.normals == Normals::surface
                 ? "all contours lie in one plane; the thickness of the object is a guess from their width"
                 : "all contours lie in one plane; a copy of the first one was added close to it");
-    if (fit.report.solver == Solver::iterative && fit.report.residual > options.solve.tolerance_mm)
+    if (fit.report.solver == Solver::iterative && fit.report.residual > report.tolerance_mm)
         report.warnings.push_back(fmt::format("the solver stopped at an error of {:.3g} mm; {:.3g} mm were asked for",
-                                              fit.report.residual, options.solve.tolerance_mm));
+                                              fit.report.residual, report.tolerance_mm));
     if (!prepared.crossings.empty())
         report.warnings.push_back(fmt::format("contours cross themselves at {}; lobes are filled by the even-odd rule",
                                               counted(prepared.crossings.size(), "point")));
@@ -113,11 +114,7 @@ void describe_thinness(const ContourSet& contours, const Grid& grid, std::vector
     for (const Contour& contour : contours.contours) {
         if (!contour.closed) continue;
         ++closed;
-        Vec3 doubled{};
-        for_each_edge(contour.points, [&](const Vec3& from, const Vec3& to) {
-            doubled += cross(from - contour.points.front(), to - contour.points.front());
-        });
-        if (norm(doubled) / 2 < face_mm2) ++thin;
+        if (enclosed_area(section_of(contour, contour.plane).outlines.front()) < face_mm2) ++thin;
     }
     if (thin > 0 && 2 * thin >= closed)
         warnings.push_back(fmt::format("{} of {} enclose{} less than a voxel: smaller voxels would show the object whole",
@@ -125,15 +122,19 @@ void describe_thinness(const ContourSet& contours, const Grid& grid, std::vector
 }
 
 /// Where a contour has few points, the surface may leave the line between them.
-void describe_long_edges(const StageResults& results, const Work& work, std::vector<std::string>& warnings) {
+void describe_long_edges(const StageResults& results, double contradiction_mm, const Work& work,
+                         std::vector<std::string>& warnings) {
     constexpr double kShare = 0.02;  // of the drawing's diameter
     const auto& [drawing, stages, prepared, fitted, image, surface, mask, check] = results;
     const double diameter = drawing.diameter_mm();
-    const Residual between = residual_between_points(fitted.function, drawing.contours, kShare * diameter, work);
-    if (between.max_mm > kShare * diameter)
-        warnings.push_back(fmt::format(
-            "the surface leaves contour {} by {:.2g} mm between its points; with more points it follows the line",
-            between.worst_contour + 1, between.max_mm));
+    const Residual between = residual_between_points(fitted.function, drawing.contours, kShare * diameter, work, stages.prepare.image);
+    if (between.max_mm <= kShare * diameter) return;
+    // Contours that contradict each other yield, however many points they have.
+    const bool yields = 2 * contradiction_mm > between.max_mm;
+    const std::string why = yields ? fmt::format(", where contours contradict each other by up to {:.2g} mm", contradiction_mm)
+                                   : "; with more points it follows the line";
+    warnings.push_back(fmt::format("the surface leaves contour {} by {:.2g} mm between its points{}",
+                                   between.worst_contour + 1, between.max_mm, why));
 }
 
 /// Nobody is 3 m tall: a contour that alone makes a drawing so wide mostly lies where it was not meant to.
@@ -159,6 +160,25 @@ void describe_strays(const Drawing& drawing, std::vector<std::string>& warnings)
                     drawing.diameter_mm(), stray + 1, loneliest_mm));
 }
 
+/// A single point that is farther from all lines than these are wide makes the object as long as its own distance.
+void describe_far_points(const Drawing& drawing, std::vector<std::string>& warnings) {
+    constexpr double kFar = 1;  // diameters of the lines: half names the poles of a long object by a section, twice misses some
+    ContourSet lines;
+    lines.contours = drawing.contours.contours;
+    const double diameter_mm = smallest_ball(lines).diameter();
+    for (std::size_t i = 0; i < drawing.contours.surface.size(); ++i) {
+        double nearest_mm = std::numeric_limits<double>::infinity();
+        for (const Contour& contour : lines.contours)
+            for (const Vec3& p : contour.points)
+                nearest_mm = std::min(nearest_mm, distance(p, drawing.contours.surface[i].position));
+        if (!(nearest_mm > kFar * diameter_mm) || lines.contours.empty()) continue;
+        warnings.push_back(fmt::format("surface point {} is {:.3g} mm from every line, and these are {:.3g} mm across; the object "
+                                       "is drawn out to it; see that it lies where it belongs",
+                                       i + 1, nearest_mm, diameter_mm));
+        return;
+    }
+}
+
 void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
     list.insert(list.end(), more.begin(), more.end());
 }
@@ -170,23 +190,24 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     const ContourSet& contours = drawing.contours;
     SegmentReport report;
     report.contours = contours.contours.size();
-    report.points = point_count(contours);
+    report.points = drawing.points_drawn;
     report.quality = options.quality;
     report.voxelizer = options.voxelizer;
     report.use_image = options.use_image;
     report.image = image;
     report.near_lines = drawing.near_lines;
     report.fill_rule = options.fill_rule;
-    report.conflicts = stages.reconcile.conflicts;
+    report.conflicts = stages.prepare.reconcile.conflicts;
     report.corners = stages.prepare.corners;
     append(report.warnings, drawing.notes);
     append(report.warnings, prepared.notes);
-    append(report.warnings, missed_clicks(contours, fitted.function, 2 * stages.prepare.click_margin_mm));
+    append(report.warnings, missed_clicks(contours, fitted.function, 2 * *stages.prepare.click_margin_mm));
     describe_fit(prepared, fitted, stages.fit, report);
-    report.residual = residual(fitted.function, contours, work);
-    describe_long_edges(results, work, report.warnings);
-    describe_strays(drawing, report.warnings);
+    report.residual = residual(fitted.function, contours, work, stages.prepare.image);
     describe_crossings(drawing, mask.grid, report);
+    describe_long_edges(results, disagreement(report.crossings).max_mm, work, report.warnings);
+    describe_strays(drawing, report.warnings);
+    describe_far_points(drawing, report.warnings);
     report.section_check = check;
     append(report.warnings, sentences(check));
     describe_thinness(contours, mask.grid, report.warnings);
@@ -196,9 +217,8 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
 }
 
 EvidenceFacts evidence_facts(const SegmentReport& report, const Grid& grid) {
-    const Vec3 spacing = grid.spacing_mm();
     return {.volume_mm3 = 1000 * report.mask_volume_ml,
-            .voxel_mm = std::min({spacing.x, spacing.y, spacing.z}),
+            .voxel_mm = smallest(grid.spacing_mm()),
             .residual_mm = report.residual.rms_mm,
             .disagreement_mm = trusted_disagreement_mm(disagreement(report.crossings)),
             .shares = report.image.shares};

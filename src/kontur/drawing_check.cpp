@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "kontur/base/parallel.h"
+#include "kontur/drawing/image_box.h"
 #include "kontur/function/fast_function.h"
+#include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {
@@ -18,8 +20,7 @@ class VoxelValues {
 public:
     VoxelValues(const SurfaceLattice& surface, const Mask& mask, bool is_cut_off)
         : lattice_(surface.lattice), mask_(mask), to_index_(mask.grid.index_to_mm.inverse()), is_cut_off_(is_cut_off) {
-        const Vec3 spacing = mask.grid.spacing_mm();
-        half_mm_ = std::min({spacing.x, spacing.y, spacing.z}) / 2;
+        half_mm_ = smallest(mask.grid.spacing_mm()) / 2;
     }
 
     /// Between voxels of one side their side, at half a voxel's depth; where the surface passes, interpolated; nothing where
@@ -84,18 +85,41 @@ bool reaches_border(const SurfaceLattice& surface) {
     });
 }
 
-/// Of the section that is thinnest beside its lines.
-double least_width_mm(const ContourSet& contours) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Contour& contour : contours.contours) {
-        if (!contour.closed) continue;
-        const double length = line_length(contour.points, true);
-        Polygon2 outline;
-        for (const Vec3& p : contour.points) outline.push_back(contour.plane.to_uv(p));
-        if (length > 0) least = std::min(least, 2 * area(outline) / length);
+/// Where something is drawn that is about as thin as a voxel is wide: voxels may lie on both sides of it.
+class ThinPlaces {
+public:
+    ThinPlaces(const Drawing& drawing, double voxel_mm) : voxel_mm_(voxel_mm) {
+        for (const Section& section : sections_of(drawing.contours, kSamePlane * drawing.diameter_mm())) {
+            double enclosed = 0, length = 0;
+            Box3 all;
+            for (std::size_t o = 0; o < section.outlines.size(); ++o) {
+                const double own = area(section.outlines[o]), around = perimeter(section.outlines[o]);
+                const Box3 box = bounding_box(drawing.contours.contours[section.contours[o]].points);
+                all.extend(box.min), all.extend(box.max);
+                add_if_thin(own, around, box);
+                enclosed += section.layer(o) * own;
+                length += around;
+            }
+            if (section.outlines.size() > 1) add_if_thin(enclosed, length, all);
+        }
     }
-    return least;
-}
+
+    std::size_t count() const { return boxes_.size(); }
+    bool contain(const Vec3& place) const {
+        return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box3& box) { return box.contains(place); });
+    }
+
+private:
+    /// Of half the length of its lines the area makes a mean width.
+    void add_if_thin(double area_mm2, double length_mm, const Box3& box) {
+        constexpr double kWidest = 0.5;  // a voxel, of the mean width
+        if (voxel_mm_ * length_mm <= kWidest * 2 * area_mm2) return;
+        boxes_.push_back(box.padded(voxel_mm_));
+    }
+
+    double voxel_mm_;
+    std::vector<Box3> boxes_;
+};
 
 SectionCheck numbered_as_drawn(SectionCheck check, const Drawing& drawing) {
     const auto rename = [&](std::size_t& contour) { contour = drawing.numbers[contour]; };
@@ -111,6 +135,13 @@ PlaceValues values_of(const ImplicitFunction& function, const Work& work) {
         [&function, work](std::span<const Vec3> places, std::span<double> values) { function.values(places, values, work); };
 }
 
+/// For the places of so many contours.
+FastFunction fast_function(const Drawing& drawing, const ImplicitFunction& function, std::size_t contours) {
+    constexpr double kTolerance = 5e-4;  // of the diameter: a ninth of what counts
+    return FastFunction(function, {.tolerance_mm = std::max(kTolerance * drawing.diameter_mm(), 1e-9),
+                                   .expected_points = 3000 * static_cast<std::int64_t>(contours)});
+}
+
 }  // namespace
 
 SectionCheck check_sections(const Drawing& drawing, const PlaceValues& values, const PlaceValues& exact, const Work& work) {
@@ -118,39 +149,35 @@ SectionCheck check_sections(const Drawing& drawing, const PlaceValues& values, c
 }
 
 SectionCheck check_sections(const Drawing& drawing, const ImplicitFunction& function, const Work& work) {
-    constexpr double kTolerance = 5e-4;  // of the diameter: a ninth of what counts
-    FastFunction fast(function, {.tolerance_mm = std::max(kTolerance * drawing.diameter_mm(), 1e-9),
-                                 .expected_points = 3000 * static_cast<std::int64_t>(drawing.contours.contours.size())});
+    FastFunction fast = fast_function(drawing, function, drawing.contours.contours.size());
     const PlaceValues values = [&](std::span<const Vec3> places, std::span<double> out) { fast.values(places, out, work); };
     return check_sections(drawing, values, {}, work);
 }
 
 SectionCheck check_sections(const Drawing& drawing, const ImplicitFunction& function, const SurfaceLattice& surface,
                             const Mask& mask, const Work& work) {
-    constexpr double kWidest = 0.5;  // a voxel, of the thinnest section
-    const Vec3 spacing = mask.grid.spacing_mm();
-    if (std::max({spacing.x, spacing.y, spacing.z}) > kWidest * least_width_mm(drawing.contours))
-        return check_sections(drawing, function, work);
-    const VoxelValues voxels(surface, mask, reaches_border(surface));
-    const PlaceValues exact = values_of(function, work);
+    const ThinPlaces thin(drawing, largest(mask.grid.spacing_mm()));
+    const bool is_on_image = image_of(drawing.contours, mask.grid).has_value();
+    const VoxelValues voxels(surface, mask, reaches_border(surface) && !is_on_image);
+    FastFunction fast = fast_function(drawing, function, thin.count());
     const PlaceValues values = [&](std::span<const Vec3> places, std::span<double> out) {
         constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
         parallel_for(static_cast<std::int64_t>(places.size()), 4096, work, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t n = begin; n < end; ++n) {
                 const auto p = static_cast<std::size_t>(n);
-                out[p] = voxels.at(places[p]).value_or(kUnknown);
+                out[p] = thin.contain(places[p]) ? kUnknown : voxels.at(places[p]).value_or(kUnknown);
             }
         });
         std::vector<Vec3> left;
         for (std::size_t p = 0; p < places.size(); ++p)
             if (std::isnan(out[p])) left.push_back(places[p]);
         std::vector<double> found(left.size());
-        if (!left.empty()) exact(left, found);
+        if (!left.empty()) fast.values(left, found, work);
         std::size_t next = 0;
         for (double& value : out)
             if (std::isnan(value)) value = found[next++];
     };
-    return check_sections(drawing, values, exact, work);
+    return check_sections(drawing, values, values_of(function, work), work);
 }
 
 }  // namespace kontur

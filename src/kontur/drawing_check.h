@@ -19,7 +19,7 @@ SectionCheck check_sections(const Drawing& drawing, const PlaceValues& values, c
                             const Work& work = {});
 
 /// The same for a function on a grid, whose voxels answer most of the questions: a few percent of the time of a fit. What
-/// the mask does not have is not there, even if f is above 0. Where voxels are as wide as the object is thin f answers.
+/// the mask does not have is not there, even if f is above 0. About contours that are hardly wider than a voxel f answers.
 SectionCheck check_sections(const Drawing& drawing, const ImplicitFunction& function, const SurfaceLattice& surface,
                             const Mask& mask, const Work& work = {});
 

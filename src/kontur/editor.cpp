@@ -9,8 +9,10 @@
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
+#include "kontur/drawing_check.h"
 #include "kontur/extract/preview.h"
 #include "kontur/extract/surface_band.h"
+#include "kontur/extract/voxelize.h"
 #include "kontur/image/image_memory.h"
 #include "kontur/image/part_fits.h"
 #include "kontur/pipeline.h"
@@ -79,13 +81,19 @@ std::vector<FoundSide> sides_of(const Drawing& drawing) {
     return sides;
 }
 
+/// With `drawing` it is held against that.
 EditedSurface surface_of(const FittedFunction& fit, std::span<const Vec3> starts, const PreviewOptions& lattice,
-                         const Work& work) {
+                         const Drawing* drawing, const Work& work) {
     EditedSurface surface;
     surface.function = fit.function;
     surface.solves = fit.solves;
     surface.spacing_mm = lattice.spacing_mm;
-    surface.mesh = preview_surface(surface.function, starts, lattice, work);
+    std::optional<LatticeSurface> found = preview_with_lattice(surface.function, starts, lattice, work);
+    if (!found) return surface;
+    surface.mesh = std::move(found->mesh);
+    if (drawing)
+        surface.section_check =
+            check_sections(*drawing, surface.function, found->lattice, fill(found->lattice, work), work);
     return surface;
 }
 
@@ -167,7 +175,7 @@ public:
         std::vector<TiltedLine> lines = tilted_lines(prepared, fitted.slopes, contours.contours.size());
         lines_.clear();
         active_bounds_.clear();
-        for (const PointConstraint& bound : fitted.held) active_bounds_.push_back(bound.position);
+        for (const PointConstraint& bound : fitted.active_bounds) active_bounds_.push_back(bound.position);
         for (std::size_t c = 0; c < lines.size(); ++c) lines_.push_back({contours.contours[c], std::move(lines[c])});
     }
 
@@ -207,6 +215,7 @@ struct Editor::State {
     int tilt_reuses = 0;  ///< how many previews in a row found no tilts anew
     std::optional<ImageMemory> image_memory;
     PartFits part_fits;
+    std::optional<Grid> image;  ///< that the last finished surface was drawn on
 
     explicit State(EditorOptions all) : options(std::move(all)) {}
 };
@@ -230,7 +239,8 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     Stopwatch watch(seconds);
     const Drawing drawing = read_drawing(thinned(drawn, kPreviewLines * options.preview_points), options.segment.fill_rule);
     StageOptions stages = stage_options(options.segment, drawing.diameter_mm());
-    PreparedContours prepared = prepare(drawing, stages, work);
+    stages.prepare.image = state_->image;
+    PreparedContours prepared = prepare(drawing, stages.prepare, work);
     const double spacing_mm = preview_spacing(options, drawing);
     std::size_t earlier_places = 0;
     if (state_->image_memory)
@@ -238,22 +248,22 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     watch.lap("prepare");
     stages.fit.most_points = options.preview_points;
     stages.fit.tilt_points = options.preview_points;
-    stages.fit.solve.tolerance_mm *= kPreviewTolerance;
+    *stages.fit.solve.tolerance_mm *= kPreviewTolerance;
     stages.fit.early_tolerance_factor = 2;
     Tilts tilts = state_->fit_memory.tilts(drawing.contours, prepared);
     if (tilts.any) stages.fit.start_slopes = std::move(tilts.slopes);
     if (tilts.any) {  // the last round is enough, or none
         stages.fit.start_smoothing *= std::pow(stages.fit.smoothing_factor, stages.fit.rounds - 1);
         stages.fit.rounds = tilts.all && state_->tilt_reuses < kMostReuses ? 0 : 1;
-        stages.fit.start_held = state_->fit_memory.active_bounds(prepared.bounds);
+        stages.fit.start_bounds = state_->fit_memory.active_bounds(prepared.bounds);
     }
     const FittedFunction fitted = fit(prepared, stages.fit, work);
     watch.lap("fit");
     const std::vector<Vec3> starts =
-        start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);
+        start_points(drawing.contours, prepared, fitted.function, *stages.prepare.click_margin_mm);
     const PreviewOptions lattice{spacing_mm};
     if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm}, work));
-    EditedSurface surface = surface_of(fitted, starts, lattice, work);
+    EditedSurface surface = surface_of(fitted, starts, lattice, nullptr, work);
     watch.lap("mesh");
     surface.sides = sides_of(drawing);
     surface.near_lines = drawing.near_lines;
@@ -277,15 +287,17 @@ EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const 
     }
     const EditorOptions& options = state_->options;
     const Drawing drawing = read_drawing(drawn, options.segment.fill_rule);
-    const StageOptions stages = stage_options(options.segment, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages, work);
+    state_->image = image ? std::optional(image->grid) : std::nullopt;
+    StageOptions stages = stage_options(options.segment, drawing.diameter_mm());
+    stages.prepare.image = state_->image;
+    const PreparedContours prepared = prepare(drawing, stages.prepare, work);
     const double spacing_mm = finished_spacing(options, drawing);
     const auto finished_surface = [&](const FittedFunction& fitted) {
         EditedSurface surface =
-            surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm),
-                       {spacing_mm}, work);
+            surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, *stages.prepare.click_margin_mm),
+                       {spacing_mm}, &drawing, work);
         surface.finished = true;
-        surface.residual = residual(surface.function, drawing.contours, work);
+        surface.residual = residual(surface.function, drawing.contours, work, state_->image);
         surface.residual.worst_contour = drawing.numbers.at(surface.residual.worst_contour);
         surface.sides = sides_of(drawing);
         surface.near_lines = drawing.near_lines;
@@ -310,7 +322,7 @@ EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const 
     if (!asks) return surface;
     if (alone) alone(surface);
     state_->part_fits.begin_question();
-    ImageFit with_image = follow_image(drawing, prepared, by_contours, *image, stages, work, &state_->part_fits);
+    ImageFit with_image = follow_image({drawing, prepared, by_contours}, *image, stages, work, &state_->part_fits);
     if (with_image.report.verdict == ImageVerdict::used) surface = finished_surface(with_image.fitted);
     surface.image = std::move(with_image.report);
     follow_image_of(drawn, surface.image);

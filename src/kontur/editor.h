@@ -12,6 +12,7 @@
 #include "kontur/fit/residual.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/image/image_report.h"
+#include "kontur/measure/section_check.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/mesh.h"
@@ -39,6 +40,7 @@ struct EditedSurface {
     Residual residual;                    ///< at all drawn points, contours as they came; finished surfaces only
     std::vector<FoundSide> sides;         ///< of the open contours that do not tell, numbered as they came
     std::vector<NearLines> near_lines{};  ///< of one plane, numbered as they came
+    SectionCheck section_check{};         ///< against what was drawn, numbered as it came; finished surfaces only
     int solves = 0;                       ///< how often a linear system was solved for it
     ImageReport image{};                  ///< what became of the image; finished surfaces only
     std::size_t earlier_places = 0;       ///< at which it follows what the image said before the edit: of previews, and of

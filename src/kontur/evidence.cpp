@@ -5,8 +5,9 @@
 
 namespace kontur {
 
-SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, const Work& work) {
-    return gather_evidence(made.samples, contours, evidence_facts(made.report, made.mask.grid), work);
+SurfaceEvidence gather_evidence(const Segmentation& segmentation, const ContourSet& contours, const Work& work) {
+    return gather_evidence(segmentation.samples, contours, evidence_facts(segmentation.report, segmentation.mask.grid),
+                           work);
 }
 
 }  // namespace kontur

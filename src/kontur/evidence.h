@@ -8,6 +8,6 @@
 namespace kontur {
 
 /// What is known of a surface from the `contours` that it was made from.
-SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, const Work& work = {});
+SurfaceEvidence gather_evidence(const Segmentation& segmentation, const ContourSet& contours, const Work& work = {});
 
 }  // namespace kontur

@@ -16,11 +16,11 @@
 #include "kontur/base/stopwatch.h"
 #include "kontur/labels/fill_range.h"
 #include "kontur/labels/filled_map.h"
-#include "kontur/labels/gaps.h"
 #include "kontur/labels/outline_noise.h"
 #include "kontur/labels/painted_object.h"
 #include "kontur/labels/scattered.h"
 #include "kontur/labels/shape_interpolation.h"
+#include "kontur/labels/structure_gaps.h"
 #include "kontur/segment.h"
 
 namespace kontur {
@@ -103,15 +103,15 @@ private:
 
     /// With the image through all outlines: there it is learnt what the border looks like.
     Segmentation fit(const PaintedObject& object, const IndexBox& range, const Image* image) const {
-        ImageReport asked;
+        ImageReport image_report;
         if (image) {
             Segmentation with_image = segment_object(object, range, image, {});
             if (with_image.report.image.verdict == ImageVerdict::used) return with_image;
-            asked = std::move(with_image.report.image);
+            image_report = std::move(with_image.report.image);
         }
         const ContourSet contours = contours_of(object, options_.smoothing_voxels);
         Segmentation alone = segment_object(object, range, nullptr, outline_smoothing(object, contours));
-        alone.report.image = std::move(asked);
+        alone.report.image = std::move(image_report);
         return alone;
     }
 
@@ -132,13 +132,19 @@ private:
         if (axis < 0 || options_.shape_weight == 0) return;
         for (std::size_t n = 1; n < object.slices.size(); ++n) {
             const PaintedSlice &low = object.slices[n - 1], &high = object.slices[n];
-            if (high.index - low.index > 1)
-                follow_shape(object, ShapeInterpolation(object.grid, low, high), low, high, range, result);
+            if (high.index - low.index > 1) follow_shape({object, low, high}, range, result);
         }
     }
 
-    void follow_shape(const PaintedObject& object, const ShapeInterpolation& shape, const PaintedSlice& low,
-                      const PaintedSlice& high, const IndexBox& range, Segmentation& result) const {
+    /// Two painted slices of an object, with others between them.
+    struct SlicePair {
+        const PaintedObject& object;
+        const PaintedSlice &low, &high;
+    };
+
+    void follow_shape(const SlicePair& pair, const IndexBox& range, Segmentation& result) const {
+        const auto& [object, low, high] = pair;
+        const ShapeInterpolation shape(object.grid, low, high);
         const auto [u, v] = slice_axes(low.axis);
         std::vector<std::size_t> differing;
         std::vector<Vec3> places;

@@ -30,8 +30,9 @@
 // Is the drawing sound?
 #include "kontur/measure/contour_check.h"
 
-// Contours to a mask, a surface and a function: of one structure, of several, of a label map with gaps, while they are
-// edited.
+// Contours to a mask, a surface and a function: of one structure, of several, of a mask to be corrected, of a label map with
+// gaps, while they are edited.
+#include "kontur/correct_mask.h"
 #include "kontur/editor.h"
 #include "kontur/fill_labels.h"
 #include "kontur/live_editor.h"
@@ -40,6 +41,9 @@
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
 #include "kontur/segment_together.h"
+
+// Structures that follow others by rules.
+#include "kontur/derive/derive.h"
 
 // How sure the surface is, and where to draw next.
 #include "kontur/suggest.h"

@@ -16,52 +16,31 @@
 namespace kontur {
 namespace {
 
-// Fractions of the contours' diameter; docs/decisions/0001-surface-normals.md has the measurements.
-constexpr double kOffsetFraction = 1.35e-2;        // normal constraints on both sides, soft
-constexpr double kInPlaneOffsetFraction = 4.5e-3;  // outside alone, exact
-constexpr double kMarginFraction = 4.5e-3;         // of clicks; what contours may disagree by
-constexpr double kSpacingOfOffset = 0.75;          // from one to the next along a line at least; a third more on average
-constexpr int kMostSolves = 2;                     // of all points: a third moves no voxel in a thousand
-constexpr double kSlopeNoise = 0.21;               // what the tilt of an organ's surface is known to
-constexpr double kMergeFraction = 6e-4;
-constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
-constexpr double kSurfaceSmoothing = 1e-5;
-constexpr std::size_t kCoarsePoints = 500;   // of contours from which others are left out
-constexpr std::size_t kCoarseSegments = 48;  // which each of them keeps
-constexpr std::size_t kCoarseLines = 2;      // times as many points as the fit has tell where lines run
+constexpr std::size_t kCoarsePoints = 500;  // of contours from which others are left out
+constexpr std::size_t kCoarseLines = 2;     // times as many points as the fit has tell where lines run
 
-FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
+FitOptions fit_options(const SegmentOptions& options) {
     FitOptions fit;
-    const bool is_surface = options.normals == Normals::surface;
     fit.normals = options.normals;
-    fit.place.normal_offset_mm =
-        options.normal_offset_mm.value_or((is_surface ? kOffsetFraction : kInPlaneOffsetFraction) * diameter_mm);
-    fit.place.both_sides = is_surface;
-    fit.place.normal_spacing_mm = is_surface ? kSpacingOfOffset * fit.place.normal_offset_mm : 0;
-    fit.place.slope_noise = is_surface ? kSlopeNoise : 0;
-    fit.most_solves = kMostSolves;
-    fit.place.merge_distance_mm = kMergeFraction * diameter_mm;
-    if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))
-        throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",
-                                                          fit.place.normal_offset_mm));
+    fit.normal_offset_mm = options.normal_offset_mm;
     fit.solve.kernel = options.kernel;
     fit.solve.solver = options.solver;
-    fit.solve.smoothing = options.smoothing.value_or(is_surface ? kSurfaceSmoothing : 0.0);
-    fit.solve.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diameter_mm);
+    fit.solve.smoothing = options.smoothing;
+    fit.solve.tolerance_mm = options.tolerance_mm;
     return fit;
 }
 
 /// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
-PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting, double diameter_mm) {
-    PrepareOptions prepare{.quality = options.quality, .click_margin_mm = kMarginFraction * diameter_mm};
+PrepareOptions prepare_options(const SegmentOptions& options, double normal_offset_mm) {
+    PrepareOptions prepare{.quality = options.quality, .reconcile = {.conflicts = options.conflicts}};
     prepare.corners = options.corners;
-    prepare.corner_spacing_mm = 2 * fitting.place.merge_distance_mm;
     if (options.normals == Normals::in_plane) {
+        prepare.reconcile.conflicts = Conflicts::exact;
         prepare.corners = Corners::rounded;
         prepare.least_segments = 0;
         prepare.bounds = false;
         prepare.gaps = false;
-        prepare.copy_shift_mm = fitting.place.normal_offset_mm;
+        prepare.copy_shift_mm = normal_offset_mm;
     }
     return prepare;
 }
@@ -90,36 +69,19 @@ std::optional<Vec3> surface_near(const Vec3& point, const ImplicitFunction& func
 }  // namespace
 
 StageOptions stage_options(const SegmentOptions& options, double diameter_mm) {
-    const FitOptions fit = fit_options(options, diameter_mm);
-    const ReconcileOptions reconcile{
-        .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
-        .offset_mm = kMarginFraction * diameter_mm};
-    return {prepare_options(options, fit, diameter_mm), reconcile, fit};
-}
-
-Drawing read_drawing(const ContourSet& drawn, FillRule rule) {
-    Drawing drawing(drawn, rule);
-    drawing.sides = find_sides(drawing.tidied);
-    for (const FoundSide& found : drawing.sides) drawing.notes.push_back(sentence(found));
-    return drawing;
-}
-
-PreparedContours prepare(const Drawing& drawing, const StageOptions& options, const Work& work) {
-    PreparedContours prepared = prepare(drawing, options.prepare, work);
-    reconcile(prepared.points, drawing.crossings, options.reconcile);
-    return prepared;
+    const FitOptions fit = resolved(fit_options(options), diameter_mm);
+    return {resolved(prepare_options(options, *fit.normal_offset_mm), diameter_mm), fit};
 }
 
 ContourSet thinned(ContourSet set, std::size_t most) {
-    constexpr double kApart = 1.3;  // points that are spread are so much farther apart on average than at least
     const std::size_t count = point_count(set);
     const Ball3 ball = smallest_ball(set);
     for (Contour& contour : set.contours) {
-        const std::size_t step = std::min(count / most, contour.points.size() / kCoarseSegments);
+        const std::size_t step = std::min(count / most, contour.points.size() / kLeastSegments);
         if (step < 2) continue;
         begin_alike(contour, ball);  // a circle is so regular that nothing else tells its points apart
         const auto apart_mm = static_cast<double>(step) * line_length(contour.points, contour.closed) /
-                              static_cast<double>(contour.points.size()) / kApart;
+                              static_cast<double>(contour.points.size()) / kSpreadApart;
         const std::vector<bool> taken =
             spread_along({contour.points, contour.closed}, std::vector(contour.points.size(), apart_mm), 0);
         std::vector<Vec3> kept;
@@ -138,19 +100,19 @@ ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& option
     coarse.fit.most_points = coarse.fit.tilt_points = kCoarsePoints;
     coarse.fit.rounds = std::min(options.fit.rounds, 1);
     coarse.fit.most_solves = 1;
-    coarse.fit.solve.tolerance_mm *= coarse.fit.early_tolerance_factor;
-    return fit(prepare(drawing, coarse, work), coarse.fit, work).function;
+    *coarse.fit.solve.tolerance_mm *= coarse.fit.early_tolerance_factor;
+    return fit(prepare(drawing, coarse.prepare, work), coarse.fit, work).function;
 }
 
-ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                      const Image& image, const StageOptions& options, const Work& work, PartFits* part_fits) {
+ImageFit follow_image(const FittedDrawing& fit, const Image& image, const StageOptions& options, const Work& work,
+                      PartFits* part_fits) {
     work.report("ask the image", 0);
     const Work alone{.threads = 1, .stop = work.stop};  // parts are fitted beside each other
     const FitContours fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options, alone); };
     const FitContours fit_once = [&](const ContourSet& part) {
-        return part_fits->of(part, drawing.diameter_mm(), fit_part);
+        return part_fits->of(part, fit.drawing.diameter_mm(), fit_part);
     };
-    return follow_image(drawing, prepared, fitted, image, part_fits ? fit_once : fit_part, {.fit = options.fit}, work);
+    return follow_image(fit, image, part_fits ? fit_once : fit_part, {.fit = options.fit}, work);
 }
 
 namespace {

@@ -5,31 +5,23 @@
 
 #include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
-#include "kontur/drawing/reconcile.h"
 #include "kontur/fit/fit.h"
 #include "kontur/fit/prepare.h"
+#include "kontur/fit/sides.h"
 #include "kontur/image/follow_image.h"
 #include "kontur/image/part_fits.h"
 #include "kontur/segment_options.h"
 
 namespace kontur {
 
-/// The options of `segment` spelled out for its first stages.
+/// The options of `segment` for its first stages, with all lengths given.
 struct StageOptions {
     PrepareOptions prepare;
-    ReconcileOptions reconcile;
     FitOptions fit;
 };
 
-/// Lengths that are not given are fractions of the drawing's diameter. Throws Error(invalid_input) when the normal offset is
-/// not above 0.
+/// Throws Error(invalid_input) for what check_fit_options refuses.
 StageOptions stage_options(const SegmentOptions& options, double diameter_mm);
-
-/// What was drawn, with the sides of open contours found. Throws as check_contours.
-Drawing read_drawing(const ContourSet& drawn, FillRule rule);
-
-/// The contours as the fit sees them, reconciled where they contradict each other.
-PreparedContours prepare(const Drawing& drawing, const StageOptions& options, const Work& work = {});
 
 /// Every few of each contour's points, about `most` in all, though no fewer than 48 of a contour that has as many: preparing
 /// contours and reading the surface's tilt costs as much as there are points.
@@ -41,8 +33,8 @@ ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& option
 
 /// The fit, moved between the contours to where the image shows the border, where it helps; else as it came. Parts of the
 /// drawing that `part_fits` has are not fitted again.
-ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                      const Image& image, const StageOptions& options, const Work& work = {}, PartFits* part_fits = nullptr);
+ImageFit follow_image(const FittedDrawing& fit, const Image& image, const StageOptions& options, const Work& work = {},
+                      PartFits* part_fits = nullptr);
 
 /// Where the surface is known to pass: every drawn point and point of the fit, each edge of each lobe where contours cross
 /// themselves, a place near each exterior point that only just got its side, for it may have made a cavity, and places

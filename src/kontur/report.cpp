@@ -95,9 +95,9 @@ Facts section_check_json(const SectionCheck& check) {
             {"sentences", sentences(check)}};
 }
 
-Facts provenance_json(const Provenance& made) {
+Facts provenance_json(const Provenance& provenance) {
     Facts facts = Facts::object();
-    for (const auto& [key, value] : made) facts[key] = value;
+    for (const auto& [key, value] : provenance) facts[key] = value;
     return facts;
 }
 
@@ -105,23 +105,10 @@ Facts mask_json(const SegmentReport& report) {
     return {{"voxels", report.mask_voxels}, {"volume_ml", report.mask_volume_ml}, {"components", report.mask_components}};
 }
 
-/// What the image said between the contours; only its use where it was not asked.
-Facts image_json(const SegmentReport& report) {
-    const ImageReport& image = report.image;
-    if (image.verdict == ImageVerdict::none) return {{"verdict", name(image.verdict)}};
-    return {{"verdict", name(image.verdict)},
-            {"sentence", sentence(image)},
-            {"planes_left_out", image.planes_left_out},
-            {"displaced", image.displaced},
-            {"walked", image.walked},
-            {"weight", image.weight},
-            {"wrong_without", image.wrong_without},
-            {"wrong_with", image.wrong_with},
-            {"error_without_mm", image.error_without_mm},
-            {"error_with_mm", image.error_with_mm},
-            {"largest_move_mm", image.largest_move_mm},
-            {"intensities", image.intensities},
-            {"on_contours_mm", image.on_contours_mm}};
+Facts image_json(const ImageReport& image) {
+    Facts facts;
+    visit_facts(image, [&](const char* key, const auto& value) { facts[key] = value; });
+    return facts;
 }
 
 Facts uncertainty_json(const SurfaceUncertainty& u) {
@@ -136,10 +123,10 @@ Facts uncertainty_json(const SurfaceUncertainty& u) {
             {"farthest_position_mm", triple(u.farthest_position)}};
 }
 
-Facts report_json(const SegmentReport& report, const Provenance& made) {
+Facts report_json(const SegmentReport& report, const Provenance& provenance) {
     return {
         {"version", KONTUR_VERSION},
-        {"provenance", provenance_json(made)},
+        {"provenance", provenance_json(provenance)},
         {"contours", report.contours},
         {"points", report.points},
         {"constraints", report.constraints},
@@ -165,7 +152,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"voxelizer", name(report.voxelizer)},
         {"evaluations", report.evaluations},
         {"surface_voxels", report.surface_voxels},
-        {"image", image_json(report)},
+        {"image", image_json(report.image)},
         {"seconds", seconds_json(report)},
         {"peak_memory_mb", peak_memory_mb()},
         {"estimated_memory_mb", report.estimated_memory_mb},
@@ -177,8 +164,8 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
 
 }  // namespace
 
-std::string to_json(const SegmentReport& report, const Provenance& made) {
-    return report_json(report, made).dump(2, ' ', false, Facts::error_handler_t::replace) + "\n";
+std::string to_json(const SegmentReport& report, const Provenance& provenance) {
+    return report_json(report, provenance).dump(2, ' ', false, Facts::error_handler_t::replace) + "\n";
 }
 
 double total_seconds(const SegmentReport& report) {

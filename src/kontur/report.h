@@ -11,7 +11,7 @@ namespace kontur {
 /// `SegmentReport.to_json` gives. Keys and order are stable, further keys may follow; docs/command-line.md describes them.
 /// Unlike in C++ contours are counted from 1; `seconds` has a `total`; `peak_memory_mb` is that of the calling process now.
 /// NaN and infinity become null, and what is no UTF-8 gets replacement characters.
-std::string to_json(const SegmentReport& report, const Provenance& made = {});
+std::string to_json(const SegmentReport& report, const Provenance& provenance = {});
 
 /// Over all stages in the report.
 double total_seconds(const SegmentReport& report);

@@ -25,8 +25,9 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
     Drawing drawing = read_drawing(drawn, options.fill_rule);
     check_grid(grid);
     if (const auto warning = check_contours_inside(drawing.contours, grid)) drawing.notes.push_back(*warning);
-    const StageOptions stages = stage_options(options, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages, work);
+    StageOptions stages = stage_options(options, drawing.diameter_mm());
+    stages.prepare.image = grid;
+    const PreparedContours prepared = prepare(drawing, stages.prepare, work);
     const double memory_mb = estimated_memory_mb(drawing, prepared, grid, options);
     check_memory(memory_mb, options);
     watch.lap("prepare");
@@ -35,18 +36,18 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
     watch.lap("fit");
     const bool asks_image = image && options.use_image != UseImage::off;
     const auto [fitted, image_report] =
-        asks_image ? follow_image(drawing, prepared, by_contours, *image, stages, work) : ImageFit{by_contours, {}};
+        asks_image ? follow_image({drawing, prepared, by_contours}, *image, stages, work) : ImageFit{by_contours, {}};
     if (image_report.verdict != ImageVerdict::none) watch.lap("image");
 
     const std::vector<Vec3> starts =
-        start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);
+        start_points(drawing.contours, prepared, fitted.function, *stages.prepare.click_margin_mm);
     const SurfaceLattice surface = find_surface(fitted.function, grid, starts, options.voxelizer, work);
     Segmentation result{fill(surface, work), fitted.function, {}, {}, {}};
     watch.lap("voxelize");
 
     if (options.mesh) {
         const double spacing_mm = kMeshSpacingFraction * drawing.diameter_mm();
-        result.mesh = surface_mesh(surface, fitted.function, starts, spacing_mm, options.voxelizer, work);
+        result.mesh = surface_mesh(surface, fitted.function, starts, {spacing_mm, options.voxelizer}, work);
         watch.lap("polygonize");
     }
 

@@ -83,9 +83,9 @@ private:
     }
 
     /// On the smallest box.
-    BoxedMask take_mask(Segmentation& made) const {
-        const IndexBox box = box_of_part(grid_, made.mask.grid);
-        return trimmed({box, std::move(made.mask)}, grid_);
+    BoxedMask take_mask(Segmentation& structure) const {
+        const IndexBox box = box_of_part(grid_, structure.mask.grid);
+        return trimmed({box, std::move(structure.mask)}, grid_);
     }
 
     void share_borders() {
@@ -100,7 +100,7 @@ private:
     Partition parted() {
         SingleFits fits;
         for (const ContourSet& set : drawn_) fits.drawn.push_back(&set);
-        for (const Segmentation& made : result_.structures) fits.functions.push_back(made.function);
+        for (const Segmentation& structure : result_.structures) fits.functions.push_back(structure.function);
         fits.masks = masks_;
         const auto fit_union = [&](std::span<const std::size_t> group, const ContourSet& outlines) {
             const auto [entry, is_new] = unions_.try_emplace({group.begin(), group.end()});

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "kontur/base/work.h"
-#include "kontur/labels/index_box.h"
 #include "kontur/labels/shared_surface.h"
 #include "kontur/labels/structure_pair.h"
 #include "kontur/segment.h"
+#include "kontur/shape/index_box.h"
 
 namespace kontur {
 

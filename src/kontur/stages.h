@@ -20,6 +20,7 @@
 #include "kontur/fit/fit.h"
 #include "kontur/fit/prepare.h"
 #include "kontur/fit/residual.h"
+#include "kontur/fit/sides.h"
 #include "kontur/function/fast_function.h"
 #include "kontur/image/follow_image.h"
 #include "kontur/solve/constraint_set.h"

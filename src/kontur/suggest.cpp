@@ -7,18 +7,18 @@
 
 namespace kontur {
 
-PlaneSuggestions suggest_planes(const Segmentation& made, const ContourSet& contours, std::size_t count,
+PlaneSuggestions suggest_planes(const Segmentation& segmentation, const ContourSet& contours, std::size_t count,
                                 const SuggestPlaneOptions& options, const Work& work) {
-    return suggest_planes(gather_evidence(made, contours, work), contours, count, options, work);
+    return suggest_planes(gather_evidence(segmentation, contours, work), contours, count, options, work);
 }
 
-std::vector<double> half_widths_mm(const Segmentation& made, const ContourSet& contours, const std::vector<Vec3>& points,
-                                   const Work& work) {
-    return half_widths_mm(gather_evidence(made, contours, work), points, work);
+std::vector<double> half_widths_mm(const Segmentation& segmentation, const ContourSet& contours,
+                                   const std::vector<Vec3>& points, const Work& work) {
+    return half_widths_mm(gather_evidence(segmentation, contours, work), points, work);
 }
 
-Image uncertainty_map(const Segmentation& made, const ContourSet& contours, const Work& work) {
-    return uncertainty_map(made.mask, gather_evidence(made, contours, work), work);
+Image uncertainty_map(const Segmentation& segmentation, const ContourSet& contours, const Work& work) {
+    return uncertainty_map(segmentation.mask, gather_evidence(segmentation, contours, work), work);
 }
 
 }  // namespace kontur

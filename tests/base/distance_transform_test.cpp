@@ -29,7 +29,7 @@ TEST(NearestMarked, IsTheNearestOfAll) {
                 double least = std::numeric_limits<double>::infinity();
                 for (std::size_t m = 0; m < marked.size(); ++m)
                     if (marked[m]) least = std::min(least, distance(place(size, n), place(size, m)));
-                EXPECT_FLOAT_EQ(found.steps[n], static_cast<float>(least));
+                EXPECT_FLOAT_EQ(found.distances[n], static_cast<float>(least));
                 EXPECT_TRUE(marked[found.nearest[n]]);
                 EXPECT_NEAR(distance(place(size, n), place(size, found.nearest[n])), least, 1e-9);
             }
@@ -37,7 +37,7 @@ TEST(NearestMarked, IsTheNearestOfAll) {
 }
 
 TEST(NearestMarked, IsInfinitelyFarWhereNoneIs) {
-    for (const float steps : nearest_marked({3, 2, 2}, std::vector<std::uint8_t>(12)).steps)
+    for (const float steps : nearest_marked({3, 2, 2}, std::vector<std::uint8_t>(12)).distances)
         EXPECT_EQ(steps, std::numeric_limits<float>::infinity());
 }
 

@@ -23,7 +23,7 @@ TEST(Printable, ReplacesWhatTerminalsObeyAndWhatIsNoText) {
 
 TEST(Printable, ShortensBetweenCharacters) {
     EXPECT_EQ(shortened("short", 20), "short");
-    const std::string text = shortened(std::string(50, 'x') + "\u00e4\u00e4\u00e4", 20);
+    const std::string text = shortened(std::string(50, 'x').append("\u00e4\u00e4\u00e4"), 20);
     EXPECT_EQ(text, "xxxxxxxxxxxxxx [...]");
     EXPECT_TRUE(is_utf8(shortened("\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4", 11)));
 }

@@ -157,6 +157,17 @@ TEST(PlaneBounds, ReachBeyondTheObjectAndGrowWithTheDistance) {
     EXPECT_GT(farthest, 2);
 }
 
+TEST(PlaneBounds, SeeAnIslandOfATenthOfTheSectionBesideIt) {
+    const ContourSet set = stack({0, 4, 8});
+    const DrawnPlanes planes(set);
+    const std::vector<Bound> bounds = plane_bounds(planes, drawn_regions(planes), 1);
+    for (double angle = 0; angle < 6; angle += 0.1) {
+        const Vec3 island = planes.sections[1].plane.from_uv(12.5 * std::cos(angle), 12.5 * std::sin(angle));
+        EXPECT_TRUE(std::ranges::any_of(bounds, [&](const Bound& bound) { return distance(bound.position, island) < 1; }))
+            << angle;
+    }
+}
+
 TEST(PlaneBounds, KeepAwayFromWhereOtherPlanesShowTheObject) {
     // The second plane shows two parts, the first was drawn with one of them only.
     ContourSet set;

@@ -39,7 +39,7 @@ TEST(FarBounds, TakeNoPartWhereTheObjectEndsByItself) {
     for (const char* name : {"kidney_radial6", "liver_oblique10"}) {
         const Drawing drawing = read_drawing(phantom_case(name).contours, FillRule::even_odd);
         const StageOptions stages = stage_options({}, drawing.diameter_mm());
-        for (const PointConstraint& held : fit(prepare(drawing, stages), stages.fit).held)
+        for (const PointConstraint& held : fit(prepare(drawing, stages.prepare), stages.fit).active_bounds)
             EXPECT_LT(distance(held.position, drawing.ball.center), 1.8 * drawing.ball.radius) << name;
     }
 }

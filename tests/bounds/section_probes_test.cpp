@@ -26,12 +26,6 @@ Polygon2 figure_of_eight() {
     return line;
 }
 
-TEST(EnclosedArea, CountsBothLobesOfALineThatCrossesItself) {
-    EXPECT_LT(area(figure_of_eight()), 1);
-    EXPECT_NEAR(enclosed_area(figure_of_eight()), 2 * 20 * 10 * 4 / 3.0, 5);
-    EXPECT_EQ(enclosed_area(circle(10)), area(circle(10)));
-}
-
 TEST(AreasWithoutHoles, AreOfWhatIsFilled) {
     const Section ring{{}, {circle(10), circle(9)}, {0, 1}, {false, true}};
     EXPECT_NEAR(areas_without_holes(ring)[0], M_PI * (100 - 81), 0.1);

@@ -168,7 +168,7 @@ def test_wrong_usage_is_one_line_and_exit_code_64(words):
         (["segment", "ball.json", "--spacing-mm", 4, "--output", "out.nii", "--holes", "xor"], "--holes"),
         (["trace", "mask.nii", "--planes", "ball.json", "--output", "out.json", "--holes", "xor"], "--holes"),
         (["convert", "ball.json", "out.mrk.json", "--holes", "xor"], "--holes"),
-        (["convert", "mask.nii", "out.nrrd", "--image", "folder"], "--image"),
+        (["convert", "ball.json", "out.mrk.json", "--image", "folder"], "--image"),
         (["convert", "mask.nii", "out.nrrd", "--roi", "liver"], "--roi"),
         (["convert", "ball.json", "out.mrk.json", "--frame", 0], "--frame"),
         (["convert", "ball.json", "out.mrk.json", "--volume", 1], "--volume"),

@@ -50,9 +50,9 @@ def test_the_second_file_may_have_another_label_and_frame(tmp_path, masks):
     assert found["dice"] == pytest.approx(dice(masks[2], masks[3]), abs=1e-12)
     assert result.stderr == f"kontur: note: label 1 of {masks[0]} is compared with label 7 of {labels}\n"
     phases = write_nifti(tmp_path / "phases.nii.gz", numpy.stack([masks[2], masks[3]], axis=3))
-    assert json.loads(succeed("compare", masks[1], phases, "--frame-b", 1, "--json"))["dice"] == 1
-    assert json.loads(succeed("compare", phases, masks[0], "--frame", 0, "--frame-b", 0, "--json"))["dice"] == 1
-    assert json.loads(succeed("compare", phases, phases, "--frame", 0, "--json"))["dice"] == 1
+    assert json.loads(succeed("compare", masks[1], phases, "--frame-b", 2, "--json"))["dice"] == 1
+    assert json.loads(succeed("compare", phases, masks[0], "--frame", 1, "--frame-b", 1, "--json"))["dice"] == 1
+    assert json.loads(succeed("compare", phases, phases, "--frame", 1, "--json"))["dice"] == 1
 
 
 def test_labels_that_differ_by_themselves_are_told(tmp_path, masks):

@@ -85,11 +85,32 @@ def test_series_of_results_are_told_apart_by_number_and_description(tmp_path):
     assert made.SeriesNumber == max(1, int(made.SeriesTime))
 
 
+def test_a_mask_on_part_of_a_grid_is_written_on_the_whole_one(tmp_path):
+    whole = ball_array()
+    image = write_nifti(tmp_path / "image.nii.gz", whole.astype(numpy.int16))
+    part = lps_affine()
+    part[:3, 3] += [5, 4, 3]
+    write_nifti(tmp_path / "part.nii.gz", 3 * whole[5:35, 4:36, 3:38], part)
+    succeed("convert", tmp_path / "part.nii.gz", tmp_path / "out.nii.gz", "--image", image)
+    assert numpy.array_equal(read_nifti(tmp_path / "out.nii.gz"), 3 * whole)
+
+
+def test_what_another_grid_cuts_off_is_a_warning(tmp_path):
+    mask = write_nifti(tmp_path / "mask.nii.gz", ball_array())
+    image = write_nifti(tmp_path / "half.nii.gz", ball_array()[:20])
+    result = kontur("convert", mask, tmp_path / "out.nii.gz", "--image", image)
+    assert result.returncode == 0 and "ml in place of 4.1" in result.stderr, result
+    assert read_nifti(tmp_path / "out.nii.gz").sum() == ball_array()[:20].sum()
+    fractions = write_nifti(tmp_path / "f.nii.gz", ball_array() * numpy.float32(0.5))
+    refused = kontur("convert", fractions, tmp_path / "o.nii.gz", "--image", image)
+    assert refused.returncode == 65 and "f.nii.gz: the image is no label map" in refused.stderr, refused
+
+
 def test_frame_chooses_one_of_a_4d_image(tmp_path):
     array = numpy.stack([ball_array(), 2 * ball_array()], axis=-1)
     path = write_nifti(tmp_path / "4d.nii.gz", array)
     assert kontur("convert", path, tmp_path / "out.nii.gz").returncode != 0
-    succeed("convert", path, tmp_path / "out.nii.gz", "--frame", 1)
+    succeed("convert", path, tmp_path / "out.nii.gz", "--frame", 2)
     assert numpy.array_equal(numpy.asarray(nibabel.load(tmp_path / "out.nii.gz").dataobj), array[..., 1])
 
 
@@ -153,7 +174,7 @@ def test_a_structure_set_becomes_contours(tmp_path):
         ("contours.json", "mesh.stl", "kontur segment"),
         ("mask.nii.gz", "contours.json", "kontur trace"),
         ("mask.nii.gz", "mesh.stl", "kontur trace cuts a mask into contours, of which kontur segment makes a mesh"),
-        ("mesh.obj", "mask.nii.gz", "format of meshes"),
+        ("mesh.obj", "contours.json", "kontur makes masks of meshes"),
     ],
 )
 def test_what_is_no_conversion_names_the_command_that_does_it(tmp_path, source, target, advice):
@@ -174,3 +195,56 @@ def test_an_input_is_never_replaced(tmp_path):
     assert result.returncode == 65
     assert path.read_bytes() == content
     assert names(tmp_path) == ["mask.nii.gz"]
+
+
+def write_box_stl(path, low, high, leave_out=0):
+    """A box by 12 triangles, of which some may be left out."""
+    corners = numpy.array([[(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]] for k in (0, 1) for j in (0, 1) for i in (0, 1)])
+    faces = [(0, 4, 6), (0, 6, 2), (0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (1, 3, 7), (1, 7, 5)]
+    triangles = numpy.zeros(len(faces) - leave_out, [("normal", "<f4", 3), ("points", "<f4", (3, 3)), ("tail", "<u2")])
+    triangles["points"] = corners[numpy.array(faces[leave_out:])]
+    path.write_bytes(b"SPACE=LPS".ljust(80) + numpy.uint32(len(triangles)).tobytes() + triangles.tobytes())
+    return path
+
+
+def test_a_mesh_becomes_the_mask_of_the_voxels_within(tmp_path):
+    image = write_nifti(tmp_path / "ct.nii.gz", numpy.zeros((20, 18, 16), numpy.int16), sheared_affine())
+    low, high = numpy.array([-3.13, -15.34, -9.93]), numpy.array([19.27, -2.76, 8.38])
+    write_box_stl(tmp_path / "box.stl", low, high)
+    for name in ("mask.nii.gz", "mask.seg.nrrd"):
+        succeed("convert", tmp_path / "box.stl", tmp_path / name, "--image", image)
+    places = numpy.stack(numpy.meshgrid(*map(numpy.arange, (20, 18, 16)), indexing="ij"), axis=-1)
+    centres = places @ sheared_affine()[:3, :3].T + sheared_affine()[:3, 3]
+    inside = ((centres > low) & (centres < high)).all(axis=-1)
+    assert inside.sum() > 300
+    assert numpy.array_equal(read_nifti(tmp_path / "mask.nii.gz"), inside)
+    same = json.loads(succeed("compare", tmp_path / "mask.seg.nrrd", tmp_path / "mask.nii.gz", "--json"))
+    assert same["dice"] == 1
+    [facts] = json.loads(succeed("inspect", tmp_path / "mask.seg.nrrd", "--json"))
+    assert facts["labels"][0]["name"] == "box"
+
+
+def test_a_surface_of_kontur_gives_its_mask_back(tmp_path):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    image = write_nifti(tmp_path / "ct.nii.gz", ball_array())
+    made = kontur("segment", tmp_path / "ball.json", "--image", image, "--use-image", "off", "-o", tmp_path / "mask.nii.gz", "--mesh", tmp_path / "ball.ply")
+    assert made.returncode == 0, made
+    succeed("convert", tmp_path / "ball.ply", tmp_path / "again.nii.gz", "--image", image)
+    assert json.loads(succeed("compare", tmp_path / "mask.nii.gz", tmp_path / "again.nii.gz", "--json"))["dice"] > 0.999
+
+
+def test_a_mesh_without_an_inside_or_a_grid_is_refused(tmp_path):
+    image = write_nifti(tmp_path / "ct.nii.gz", numpy.zeros((10, 10, 10), numpy.int16))
+    for name, words, said in (
+        ("open.stl", {"low": (-7, -26, -14), "high": (0.5, -20, -8), "leave_out": 2}, "open.stl: the surface is not closed: "),
+        ("far.stl", {"low": (200, 200, 200), "high": (209, 209, 209)}, "no voxel of"),
+    ):
+        write_box_stl(tmp_path / name, *map(numpy.array, (words["low"], words["high"])), words.get("leave_out", 0))
+        result = kontur("convert", tmp_path / name, tmp_path / "out.nii.gz", "--image", image)
+        assert result.returncode == 65 and said in result.stderr, result
+    result = kontur("convert", tmp_path / "far.stl", tmp_path / "out.nii.gz")
+    assert result.returncode == 65 and "name an image that has it with --image" in result.stderr, result
+    write_box_stl(tmp_path / "cut.stl", numpy.array([-7.0, -26, -14]), numpy.array([99.0, -20, -8]))
+    result = kontur("convert", tmp_path / "cut.stl", tmp_path / "cut.nii.gz", "--image", image)
+    assert result.returncode == 0 and "reaches beyond" in result.stderr, result
+    assert not (tmp_path / "out.nii.gz").exists()

@@ -175,7 +175,7 @@ def test_layers_of_3d_slicer_become_overlapping_segments(tmp_path, images, overl
     result = kontur("convert", tmp_path / "both.seg.nrrd", tmp_path / "seg.dcm", "--image", images)
     assert result.returncode == 0 and "the segment 'nothing' has no voxels and is left out" in result.stderr
     check_overlapping(tmp_path / "seg.dcm", images, overlapping)
-    words = ["--frame", 1, "--image", images]
+    words = ["--frame", 2, "--image", images]
     assert kontur("convert", tmp_path / "both.seg.nrrd", tmp_path / "second.dcm", *words).returncode == 0
     overlap, found = segments_by_pydicom(tmp_path / "second.dcm", images)
     assert overlap == "NO" and list(found) == ["tumour"] and numpy.array_equal(found["tumour"], overlapping[1])

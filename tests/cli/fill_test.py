@@ -5,7 +5,7 @@ import json
 import nibabel
 import numpy
 import pytest
-from support import ball_array, kontur, names, succeed, write_nifti
+from support import ball_array, dice, kontur, names, read_nifti, succeed, write_nifti
 
 
 def painted(step=4, axis=2):
@@ -103,7 +103,7 @@ def test_segments_that_overlap_are_filled_each_by_itself(tmp_path):
     assert [label["name"] for label in json.loads((tmp_path / "fill.json").read_text())["labels"]] == ["cyst", "kidney"]
     header = (tmp_path / "both.seg.nrrd").read_bytes()
     assert b"sizes: 2 40 40 40" in header and b"Segment1_Tags:=Status:done|" in header
-    succeed("convert", tmp_path / "both.seg.nrrd", tmp_path / "second.nii", "--frame", 1)
+    succeed("convert", tmp_path / "both.seg.nrrd", tmp_path / "second.nii", "--frame", 2)
     assert (read(tmp_path / "second.nii") == full).all()
     unknown = kontur("fill", tmp_path / "two.seg.nrrd", "--label", 7, "--output", tmp_path / "x.nii")
     assert unknown.returncode == 65 and "the label 7 is to be filled, but no segment has it" in unknown.stderr, unknown
@@ -154,3 +154,28 @@ def test_nothing_left_out_is_said(tmp_path):
     result = kontur("fill", file, "--output", tmp_path / "full.nii.gz")
     assert result.returncode == 0 and "label 1: no slice was left out" in result.stderr
     assert (read(tmp_path / "full.nii.gz") == ball_array()).all()
+
+
+def test_painted_slices_are_filled_on_a_finer_grid(tmp_path):
+    """A ball painted on slices of 6 mm, wanted on slices of 1 mm."""
+    def ball(spacing_k, count_k):
+        i, j, k = numpy.meshgrid(numpy.arange(60), numpy.arange(60), numpy.arange(count_k), indexing="ij")
+        return ((i - 30.0) ** 2 + (j - 29.0) ** 2 + (k * spacing_k - 30.0) ** 2 < 22.0**2).astype(numpy.uint8)
+
+    coarse = write_nifti(tmp_path / "coarse.nii.gz", 3 * ball(6.0, 11), numpy.diag([1.0, 1.0, 6.0, 1.0]))
+    truth = ball(1.0, 61)
+    fine = write_nifti(tmp_path / "fine.nii.gz", truth, numpy.eye(4))
+    result = kontur("fill", coarse, "--image", fine, "--on-image", "--use-image", "off", "--ends", "half", "-o", tmp_path / "full.nii.gz")
+    assert result.returncode == 0, result
+    full = read_nifti(tmp_path / "full.nii.gz")
+    assert set(numpy.unique(full)) == {0, 3} and full.shape == truth.shape
+    assert dice(full > 0, truth) > 0.98
+    assert kontur("convert", coarse, tmp_path / "nearest.nii.gz", "--image", fine).returncode == 0
+    assert dice(full > 0, truth) > dice(read_nifti(tmp_path / "nearest.nii.gz") > 0, truth) + 0.01
+    for k in range(11):
+        assert numpy.array_equal(full[..., 6 * k] > 0, ball(6.0, 11)[..., k] > 0)
+    tilted = numpy.eye(4)
+    tilted[0, 2] = tilted[2, 0] = 0.3
+    write_nifti(tmp_path / "tilted.nii.gz", truth, tilted)
+    result = kontur("fill", coarse, "--image", tmp_path / "tilted.nii.gz", "--on-image", "-o", tmp_path / "out.nii.gz")
+    assert result.returncode == 65 and "its slices are not parallel to those of the image" in result.stderr, result

@@ -74,8 +74,8 @@ def test_of_several_frames_the_first_is_described_and_all_are_counted(tmp_path):
     path = write_nifti(tmp_path / "cine.nii.gz", frames)
     [facts] = inspect(path)
     assert (facts["size"], facts["frames"], facts["max"]) == ([5, 4, 3], 6, 0)
-    assert facts["notes"] == ["the values are those of frame 0; --frame takes another"]
-    [facts] = inspect(path, "--frame", "3")
+    assert facts["notes"] == ["the values are those of frame 1; --frame takes another"]
+    [facts] = inspect(path, "--frame", "4")
     assert facts["max"] == 30 and "frames" not in facts
 
 

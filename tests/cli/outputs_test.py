@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is written replaces nothing that was read, and what stood there before stays when something goes wrong."""
+import fcntl
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 import pytest
 from support import KONTUR, ball_array, ball_planes, circle, kontur, kontur_of_nobody, names, write_nifti, write_planes
@@ -149,3 +152,65 @@ def test_links_in_a_circle_are_refused_before_the_work(tmp_path):
     result = kontur("segment", "missing.json", *COARSE, "--output", "a.nii", cwd=tmp_path)
     assert result.returncode == 74
     assert result.stderr == "kontur: error: cannot write a.nii: Too many levels of symbolic links\n"
+
+
+def killed_while_it_writes(folder, output):
+    """Ends kontur as kill -9 does, once it has a hidden folder."""
+    command = [KONTUR, "segment", "ball.json", "--spacing-mm", "0.15", "--output", output]
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not (hidden := [name for name in names(folder) if name.startswith(".kontur-")]):
+        assert process.poll() is None, "it ended before it could be killed"
+        time.sleep(0.001)
+    process.send_signal(signal.SIGKILL)
+    assert process.wait() == -signal.SIGKILL
+    return hidden
+
+
+def test_what_a_killed_run_left_is_cleared_by_the_next(tmp_path):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    left, = killed_while_it_writes(tmp_path, "a.nii.gz")
+    assert (tmp_path / left).is_dir()
+    assert kontur("segment", "ball.json", *COARSE, "--output", "b.nii", cwd=tmp_path).returncode == 0
+    assert names(tmp_path) == ["b.nii", "ball.json"]
+
+
+def is_locked(folder):
+    opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return False
+    except BlockingIOError:
+        return True
+    finally:
+        os.close(opened)
+
+
+def test_the_hidden_folder_of_a_run_at_work_stays(tmp_path):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    command = [KONTUR, "segment", "ball.json", "--spacing-mm", "0.15", "--output", "a.nii.gz"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not any(name.startswith(".kontur-") and is_locked(tmp_path / name) for name in names(tmp_path)):
+        assert process.poll() is None
+        time.sleep(0.001)
+    process.send_signal(signal.SIGSTOP)
+    try:
+        hidden = [name for name in names(tmp_path) if name.startswith(".kontur-")]
+        assert len(hidden) == 1
+        assert kontur("segment", "ball.json", *COARSE, "--output", "b.nii", cwd=tmp_path).returncode == 0
+        assert names(tmp_path) == [*hidden, "b.nii", "ball.json"]
+    finally:
+        process.send_signal(signal.SIGCONT)
+        assert process.wait() == 0
+    assert names(tmp_path) == ["a.nii.gz", "b.nii", "ball.json"]
+
+
+def test_folders_of_users_and_kept_files_are_no_leftovers(tmp_path):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    for name, mode in ((".kontur-mine", 0o700), (".kontur-abcdef", 0o755), (".kontur-keeper", 0o700), (".kontur-ghijkl", 0o700)):
+        (tmp_path / name).mkdir()
+        (tmp_path / name).chmod(mode)
+    (tmp_path / ".kontur-keeper" / ".replaced-0").write_text("what stood at a target")
+    (tmp_path / ".kontur-ghijkl" / "mask.nii").write_text("half a mask")
+    (tmp_path / ".kontur-linked").symlink_to(".kontur-mine")
+    assert kontur("segment", "ball.json", *COARSE, "--output", "b.nii", cwd=tmp_path).returncode == 0
+    assert names(tmp_path) == [".kontur-abcdef", ".kontur-keeper", ".kontur-linked", ".kontur-mine", "b.nii", "ball.json"]

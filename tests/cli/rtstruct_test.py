@@ -42,6 +42,18 @@ def disc_area(z):
     return math.pi * max(0, RADIUS**2 - (z - CENTER[2]) ** 2)
 
 
+def test_what_the_reader_says_of_contours_the_fit_does_not_say_again(tmp_path, images):
+    planes = [circle("z", offset, center=CENTER, radius=RADIUS) for offset in (-2.5, 0, 2.5)]
+    for plane, other in zip(planes, [circle("z", offset, center=CENTER, radius=RADIUS) for offset in (-2.5, 0, 2.5)]):
+        plane["contours"].append({**other["contours"][0], "points": [[x + 2, y, z] for x, y, z in other["contours"][0]["points"]]})
+    write_planes(tmp_path / "two.json", planes)
+    assert (made := kontur("convert", tmp_path / "two.json", tmp_path / "two.dcm", "--image", images)).returncode == 0, made
+    for words in (["--all-rois"], []):
+        result = kontur("segment", tmp_path / "two.dcm", *words, "--image", images, "-o", tmp_path / "mask.nii.gz", "--use-image", "off")
+        assert result.returncode == 0, result
+        assert result.stderr.count("overlap in part (and 2 more such pairs)") == 1, result.stderr
+
+
 def test_segment_cuts_the_surface_on_the_images_slices(tmp_path, images):
     contours = ball_contours(tmp_path / "ball.json")
     words = ["--image", images, "--output", tmp_path / "mask.nii.gz", "--rtstruct", tmp_path / "rs.dcm", "--name", "Läsion"]

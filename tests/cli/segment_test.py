@@ -235,8 +235,8 @@ def test_a_frame_that_was_asked_for_must_be_there(folder):
     frames = numpy.stack(2 * [ball_array().astype(numpy.int16)], axis=-1)
     nibabel.save(nibabel.Nifti1Image(frames, nibabel.load(folder / "image.nii.gz").affine), folder / "4d.nii.gz")
     words = ("segment", folder / "ball.json", "--image", folder / "4d.nii.gz", "--output", folder / "out.nii.gz")
-    refused = kontur(*words, "--frame", "2")
-    assert refused.returncode == 65 and "frame 2" in refused.stderr and "frames 0 to 1" in refused.stderr
+    refused = kontur(*words, "--frame", "3")
+    assert refused.returncode == 65 and "frame 3" in refused.stderr and "frames 1 to 2" in refused.stderr
     assert not (folder / "out.nii.gz").exists()
     unsaid = kontur(*words)
     assert unsaid.returncode == 0 and "has 2 frames" in unsaid.stderr  # all have one grid

@@ -178,6 +178,19 @@ def test_a_run_makes_label_map_and_model_where_the_curves_are(scene):
     assert float(returned["volumeMl"]) == pytest.approx(4 / 3 * numpy.pi * RADIUS**3 / 1000, rel=0.02)
 
 
+def test_curves_of_few_points_are_the_splines_that_3d_slicer_shows(scene):
+    """Each by 8 points, of which straight lines would lose a tenth of the volume."""
+    for path in scene.glob("*.mrk.json"):
+        curve = json.loads(path.read_text())
+        curve["markups"][0]["controlPoints"] = curve["markups"][0]["controlPoints"][::5]
+        path.write_text(json.dumps(curve))
+    result = run_module(scene, outputMask=scene / "mask.nrrd")
+    assert (result.returncode, result.stderr) == (0, ""), result
+    returned = dict(line.split(" = ") for line in (scene / "returned.params").read_text().splitlines())
+    assert float(returned["volumeMl"]) == pytest.approx(4 / 3 * numpy.pi * RADIUS**3 / 1000, rel=0.02)
+    assert "took 9 curves as the spline that 3D Slicer draws" in result.stdout
+
+
 @pytest.fixture
 def painted(tmp_path):
     """A ball of which every fifth slice is painted, as 3D Slicer leaves a label map for a module, and its image."""

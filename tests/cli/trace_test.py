@@ -1,10 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur trace: a ball's mask cut by planes gives circles."""
 import json
+import pathlib
+import subprocess
+import sys
 
+import nibabel
 import numpy
+import pydicom
 import pytest
 from support import CENTER, RADIUS, ball_array, kontur, names, succeed, write_nifti, write_planes
+
+
+def dicom_images(folder):
+    script = pathlib.Path(__file__).parents[1] / "support" / "make_dicom_series.py"
+    subprocess.run([sys.executable, script, "axial", folder / "axial"], check=True)
+    return folder / "axial" / "dicom"
 
 
 def plane(origin, normal):
@@ -29,6 +40,22 @@ def test_cut_through_a_balls_centre_is_a_circle_on_the_plane(tmp_path, normal):
     assert not contour["hole"]
     assert numpy.abs(points @ its_plane["normal"]).max() < 1e-6
     assert numpy.abs(numpy.linalg.norm(points, axis=1) - RADIUS).max() < 1.0
+
+
+def test_all_labels_become_the_rois_of_one_structure_set(tmp_path):
+    images = dicom_images(tmp_path)
+    succeed("convert", images, tmp_path / "ct.nii.gz")
+    ct = nibabel.load(tmp_path / "ct.nii.gz")
+    labels = numpy.zeros(ct.shape, numpy.uint8)
+    labels[2:6, 2:7, 2:6], labels[8:12, 3:8, 3:7] = 7, 9
+    nibabel.save(nibabel.Nifti1Image(labels, ct.affine), tmp_path / "organs.nii.gz")
+    result = kontur("trace", tmp_path / "organs.nii.gz", "--all-labels", "--image", images, "-o", tmp_path / "rs.dcm")
+    assert result.returncode == 0 and "2 structures with 8 contours" in result.stdout, result
+    made = pydicom.dcmread(tmp_path / "rs.dcm")
+    assert [roi.ROIName for roi in made.StructureSetROISequence] == ["organs label 7", "organs label 9"]
+    assert [len(roi.ContourSequence) for roi in made.ROIContourSequence] == [4, 4]
+    refused = kontur("trace", tmp_path / "organs.nii.gz", "--all-labels", "-o", tmp_path / "rs.json")
+    assert refused.returncode == 65 and "--all-labels is for an RTSTRUCT (.dcm)" in refused.stderr, refused
 
 
 def test_without_planes_the_masks_own_slices_cut(tmp_path):

@@ -55,6 +55,7 @@ def write_material(folder):
     for name in ("contours.json", "planes.json", "demo/liver_orthogonal14.json", "P001/liver.json"):
         kontur.write_contours(folder / name, CASE.contours)
     kontur.write_contours(folder / "curves.mrk.json", CASE.contours)
+    kontur.write_contours(folder / "corrections.json", kontur.ContourSet(CASE.contours[:1]))
     axial = [c for c in CASE.contours if abs(c.plane.normal[2]) > 0.9]
     others = [c for c in CASE.contours if abs(c.plane.normal[2]) <= 0.9]
     for name, some in (("axial", axial), ("sagittal", others)):

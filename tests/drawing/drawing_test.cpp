@@ -55,6 +55,20 @@ TEST(Drawing, LeavesOutContoursAsSmallAsASlipOfTheHandAndSaysSo) {
     EXPECT_EQ(drawing_of({speck}).contours.contours.size(), 1u) << "nothing else was drawn";
 }
 
+TEST(Drawing, ContoursOfVeryManyPointsAreThinnedForAllThatIsAskedOfThem) {
+    const Contour vast = test::circle(kNext, 3, 20000), many = test::circle(kPlane, 3, 3000);
+    const Drawing drawing = drawing_of({kSquare, kLine, vast, many});
+    ASSERT_EQ(drawing.contours.contours.size(), 3u);
+    EXPECT_EQ(drawing.numbers, (std::vector<std::size_t>{0, 2, 3}));
+    EXPECT_LT(drawing.contours.contours[1].points.size(), 1000u);
+    EXPECT_EQ(drawing.contours.contours[2].points, many.points) << "few enough";
+    EXPECT_EQ(drawing.points_drawn, kSquare.points.size() + 23000);
+    for (const Vec3& p : drawing.contours.contours[1].points)
+        EXPECT_TRUE(std::ranges::count(vast.points, p)) << "of those that were drawn";
+    const auto said = [&](const std::string& note) { return note.find("with very many points") != std::string::npos; };
+    EXPECT_EQ(std::ranges::count_if(drawing.notes, said), 1);
+}
+
 TEST(Drawing, AContourDrawnTwiceCountsOnce) {
     const Contour across =
         polygon(make_plane(kPlane.origin + 5.0 * kPlane.u + 4.0 * kPlane.v, kPlane.u), {{-3, -4}, {3, -4}, {3, 4}, {-3, 4}});

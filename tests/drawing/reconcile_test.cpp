@@ -28,8 +28,8 @@ ContourSet three_great_circles(double excess) {
 }
 
 std::vector<BoundaryPoint> reconciled(const ContourSet& set, Conflicts conflicts) {
-    std::vector<BoundaryPoint> points = prepare(set).points;
-    reconcile(points, find_crossings(set), {.conflicts = conflicts});
+    std::vector<BoundaryPoint> points = prepare(set, {.reconcile = {.conflicts = Conflicts::exact}}).points;
+    reconcile(points, find_crossings(set), diameter_mm(set), {.conflicts = conflicts, .offset_mm = 1});
     return points;
 }
 
@@ -63,7 +63,7 @@ TEST(Reconcile, TrustFadesByAndByHoweverLargeTheDisagreement) {
         std::vector<BoundaryPoint> points;
         for (const Vec3& p : test::circle(set.contours[0].plane, 20, 9000).points)  // 0.014 mm apart
             points.push_back({.position = p, .contour = 0});
-        reconcile(points, find_crossings(set), {});
+        reconcile(points, find_crossings(set), diameter_mm(set), {.offset_mm = 1});
         EXPECT_LT(std::ranges::min(points, {}, &BoundaryPoint::trust).trust, 0.7) << excess;
         for (std::size_t i = 1; i < points.size(); ++i) {
             const auto [less, more] = std::minmax(points[i - 1].trust, points[i].trust);
@@ -102,7 +102,8 @@ TEST(Reconcile, TheHeavierContourYieldsLess) {
 TEST(Reconcile, PointsStartWithTheWeightOfTheirContour) {
     ContourSet set = three_great_circles(0);
     set.contours[1].weight = 5;
-    for (const BoundaryPoint& p : prepare(set).points) EXPECT_EQ(p.trust, p.contour == 1 ? 5 : 1);
+    for (const BoundaryPoint& p : prepare(set, {.reconcile = {.conflicts = Conflicts::exact}}).points)
+        EXPECT_EQ(p.trust, p.contour == 1 ? 5 : 1);
 }
 
 TEST(Reconcile, ExactContoursAllKeepTheirTrust) {

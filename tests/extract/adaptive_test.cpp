@@ -79,7 +79,7 @@ const ImplicitFunction& crossing_function() {
     static const ImplicitFunction function = [] {
         const ContourSet set = crossing_contours(60);
         FitOptions options;
-        options.place.normal_offset_mm = 0.2;
+        options.normal_offset_mm = 0.2;
         options.solve.smoothing = 1e-5;
         return fit(prepare(set), options).function;
     }();

@@ -10,8 +10,8 @@
 namespace kontur {
 namespace {
 
-PlaneLattice unit_lattice(std::int64_t columns, std::int64_t rows) {
-    PlaneLattice lattice;
+IsolineLattice unit_lattice(std::int64_t columns, std::int64_t rows) {
+    IsolineLattice lattice;
     lattice.columns = columns;
     lattice.rows = rows;
     return lattice;
@@ -48,7 +48,7 @@ int regions(unsigned nodes, bool ring, bool diagonal) {
 }
 
 TEST(Isolines, SeparateTheRegionsOfEveryFourByFourLattice) {
-    const PlaneLattice lattice = unit_lattice(4, 4);
+    const IsolineLattice lattice = unit_lattice(4, 4);
     std::vector<double> values(16);
     for (unsigned nodes = 0; nodes < 1u << 16; ++nodes) {
         for (unsigned b = 0; b < 16; ++b) values[b] = nodes >> b & 1 ? 1 : -1;
@@ -61,7 +61,7 @@ TEST(Isolines, SeparateTheRegionsOfEveryFourByFourLattice) {
 }
 
 TEST(Isolines, JoinASaddleByTheSignOfItsBilinearInterpolant) {
-    const PlaneLattice lattice = unit_lattice(2, 2);
+    const IsolineLattice lattice = unit_lattice(2, 2);
     EXPECT_EQ(isolines(lattice, std::vector<double>{3, -1, -1, 3}).size(), 1u);
     EXPECT_EQ(isolines(lattice, std::vector<double>{-1, 3, 3, -1}).size(), 1u);
     EXPECT_EQ(isolines(lattice, std::vector<double>{1, -3, -3, 1}).size(), 2u);
@@ -79,10 +79,10 @@ class RingTest : public testing::TestWithParam<bool> {
 protected:
     static double ring(double u, double v) { return 3 - std::abs(std::hypot(u - 1, v + 2) - 10); }
     /// The lattice over the ring, in a plane whose frame is left-handed if the parameter says so.
-    static PlaneLattice lattice() {
+    static IsolineLattice lattice() {
         Plane plane = make_plane({10, 20, 30}, {1, -2, 0.5});
         if (GetParam()) plane.v = -plane.v;
-        PlaneLattice result;
+        IsolineLattice result;
         result.plane = plane;
         result.u_min_mm = -15;
         result.v_min_mm = -18;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "kontur/extract/adaptive.h"
+#include "kontur/extract/polygonize.h"
 #include "support/expect_error.h"
 #include "support/functions.h"
 
@@ -57,6 +59,42 @@ TEST(Preview, IsAClosedSphereWithOutwardNormalsWhateverTheSpacing) {
             EXPECT_GT(dot(mesh.normals[i], normalized(radial)), 0.9995);
         }
     }
+}
+
+/// A plate of 1.6 lattice steps and balls of 2.6 steps: what the lattice's differences cannot show is computed.
+TEST(Preview, ThinSheetsAndSmallBallsHaveTheirNormals) {
+    TriangleMesh plate = test::unit_sphere(4);
+    for (std::size_t i = 0; i < plate.points.size(); ++i) {
+        const Vec3 d = plate.points[i];
+        plate.points[i] = {30 * d.x, 30 * d.y, 0.8 * d.z};
+        plate.normals[i] = normalized({d.x / 30, d.y / 30, d.z / 0.8});
+    }
+    TriangleMesh balls;
+    for (const Vec3& center : {Vec3{-30, 1, 2}, {30, 0, 0}, {0, 33, -5}, {3, -30, 20}}) {
+        const TriangleMesh ball = test::ball(center, 1.3, 2);
+        balls.points.insert(balls.points.end(), ball.points.begin(), ball.points.end());
+        balls.normals.insert(balls.normals.end(), ball.normals.begin(), ball.normals.end());
+    }
+    for (const TriangleMesh* surface : {&plate, &balls}) {
+        const ImplicitFunction function = test::function_through(*surface, 0.2);
+        const auto [mm, radians] = worst(preview_surface(function, surface->points, {.spacing_mm = 1}), function);
+        EXPECT_LT(mm, 0.05);
+        EXPECT_LT(radians, 0.15);
+    }
+}
+
+TEST(Preview, TakesASmoothSurfaceFromTheLattice) {
+    const ImplicitFunction ball = test::ball_function(kCenter, kRadius);
+    const Grid grid = *preview_lattice(points_on_ball(), 1, {});
+    std::vector<std::int64_t> values;
+    for (const MeshAccuracy accuracy : {MeshAccuracy::of_a_screen, MeshAccuracy::of_a_file}) {
+        FastFunction fast(ball, {.tolerance_mm = 0.02, .expected_points = 1'000'000});
+        const SurfaceLattice surface = track_surface_adaptively(fast, grid, points_on_ball());
+        const std::int64_t before = fast.kernel_values();
+        polygonize(surface, fast, {}, accuracy);
+        values.push_back(fast.kernel_values() - before);
+    }
+    EXPECT_LT(20 * values[0], values[1]);
 }
 
 TEST(Preview, ShowsTheBulgeBeyondTheContours) {

@@ -7,6 +7,7 @@
 
 #include "kontur/editor.h"
 #include "kontur/extract/adaptive.h"
+#include "kontur/extract/polygonize.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/view/outline.h"
 #include "support/expect_error.h"
@@ -110,7 +111,8 @@ TEST(SurfaceBand, AgreesWithTheMeshOfTheSameSurface) {
         const PhantomCase c = phantom_case(name);
         const Surface surface(c);
         const SurfaceBand band(surface.function, surface.starts, {surface.spacing_mm});
-        const TriangleMesh mesh = preview_surface(surface.function, surface.starts, {surface.spacing_mm});
+        const Grid lattice = *preview_lattice(surface.starts, surface.spacing_mm);
+        const TriangleMesh mesh = polygonize(track_surface_adaptively(surface.function, lattice, surface.starts), surface.function);
         std::vector<double> distances;
         for (const Plane& plane : drawn_and_random_planes(c.contours, random)) {
             const Lines fast = without_grazed(band.cut(plane), surface.spacing_mm);

@@ -9,6 +9,7 @@
 #include "kontur/io/contours/contour_json.h"
 #include "kontur/io/image.h"
 #include "support/expect_error.h"
+#include "support/mask_of.h"
 #include "support/random_masks.h"
 #include "support/test_data.h"
 
@@ -36,14 +37,6 @@ std::vector<NamedGrid> grids() {
             {"oblique", grid_with_axes(turned.u, turned.v, turned.normal)},
             {"left-handed", grid_with_axes(turned.v, turned.u, turned.normal)},
             {"sheared", grid_with_axes({1, 0, 0}, {0, 1, 0}, {0, 0.3, 0.95})}};
-}
-
-Mask mask_of(const Grid& grid, const std::function<bool(const Vec3&)>& inside) {
-    Mask mask{grid, {}};
-    for (std::int64_t k = 0; k < grid.size.k; ++k)
-        for (std::int64_t j = 0; j < grid.size.j; ++j)
-            for (std::int64_t i = 0; i < grid.size.i; ++i) mask.values.push_back(inside(grid.center_mm(i, j, k)));
-    return mask;
 }
 
 /// Area enclosed by a contour, positive when it runs counter-clockwise about its plane's normal.
@@ -78,7 +71,7 @@ TEST(Trace, FollowsBallsAndEllipsoidsCutByRandomPlanesOnAnyGrid) {
     std::mt19937 random = test::random_of_this_test();
     for (const auto& [name, grid] : grids())
         for (const Vec3& radii : {Vec3{20, 20, 20}, Vec3{24, 15, 19}}) {
-            const Mask mask = mask_of(grid, [&](const Vec3& p) {
+            const Mask mask = test::mask_of(grid, [&](const Vec3& p) {
                 return norm({p.x / radii.x, p.y / radii.y, p.z / radii.z}) < 1;
             });
             for (int run = 0; run < 12; ++run) {
@@ -97,7 +90,7 @@ TEST(Trace, FollowsBallsAndEllipsoidsCutByRandomPlanesOnAnyGrid) {
 }
 
 TEST(Trace, MarksTheWallOfACavityAsAHole) {
-    const Mask shell = mask_of(grids()[1].grid, [](const Vec3& p) { return norm(p) < 24 && norm(p) > 12; });
+    const Mask shell = test::mask_of(grids()[1].grid, [](const Vec3& p) { return norm(p) < 24 && norm(p) > 12; });
     std::mt19937 random = test::random_of_this_test();
     for (int run = 0; run < 10; ++run) {
         const Plane plane = random_plane(random, 6);
@@ -114,7 +107,7 @@ TEST(Trace, MarksTheWallOfACavityAsAHole) {
 
 TEST(Trace, CutsATorusIntoTwoLoopsOrARing) {
     const Mask torus =
-        mask_of(grids()[3].grid, [](const Vec3& p) { return std::hypot(std::hypot(p.x, p.y) - 17, p.z) < 7; });
+        test::mask_of(grids()[3].grid, [](const Vec3& p) { return std::hypot(std::hypot(p.x, p.y) - 17, p.z) < 7; });
     const std::vector<Plane> planes{make_plane({0, 0, 0}, {1, 0.4, 0}), make_plane({0, 0, 1}, {0, 0, 1})};
     const ContourSet set = trace(torus, planes);
     ASSERT_EQ(set.contours.size(), 4u);
@@ -173,7 +166,7 @@ TEST(Trace, KeepsOnlyCornersOfStraightSides) {
 }
 
 TEST(Trace, DropsSmallContours) {
-    const Mask two = mask_of(grids()[0].grid, [](const Vec3& p) {
+    const Mask two = test::mask_of(grids()[0].grid, [](const Vec3& p) {
         return norm(p - Vec3{-12, 0, 0}) < 10 || norm(p - Vec3{15, 0, 0}) < 3;
     });
     const Plane plane = make_plane({0, 0, 0}, {0, 0.1, 1});

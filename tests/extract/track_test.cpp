@@ -266,7 +266,7 @@ TEST(Track, SelfIntersectingContoursOfThePhantomFillAllTheirLobes) {
     }
     const PreparedContours prepared = prepare(c.contours);
     FitOptions options;
-    options.place.normal_offset_mm = 0.3;
+    options.normal_offset_mm = 0.3;
     const ImplicitFunction function = fit(prepared, options).function;
     std::vector<Vec3> starts = prepared.crossings;
     for (const Contour& contour : c.contours.contours)

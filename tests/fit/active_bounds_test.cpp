@@ -15,7 +15,7 @@ FittedFunction fitted_with(const Bound& bound) {
     PreparedContours prepared = prepare(test::three_great_circles(), {.bounds = false});
     prepared.bounds = {bound};
     FitOptions options;
-    options.place.normal_offset_mm = 0.1;
+    options.normal_offset_mm = 0.1;
     options.solve.smoothing = 1e-5;
     return fit(prepared, options);
 }
@@ -38,6 +38,15 @@ TEST(ActiveBounds, ABoundIsKeptFromBothSidesAsCloselyAsItsNoiseAllows) {
         bound.noise_mm = 1e4;
         EXPECT_NEAR(fitted_with(bound).function.value(at), free, 0.05);
     }
+}
+
+TEST(ActiveBounds, ABoundBySideTakesPartOnlyWhereFHasTheOtherOne) {
+    const Vec3 inside{2, 2, 2}, outside{9, 9, 9};
+    const double much = fitted_with({.position = inside, .most_mm = 1e3, .noise_mm = 1}).function.value(inside) + 2;
+    EXPECT_EQ(fitted_with({.position = inside, .least_mm = much, .noise_mm = 0.01, .by_side = true}).bounded, 0u);
+    EXPECT_EQ(fitted_with({.position = inside, .least_mm = much, .noise_mm = 0.01}).bounded, 1u);
+    EXPECT_NEAR(fitted_with({.position = outside, .least_mm = 1, .noise_mm = 0.01, .by_side = true}).function.value(outside),
+                1, 0.05);
 }
 
 std::size_t held(const ActiveBounds& bounds) {

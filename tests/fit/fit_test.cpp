@@ -37,8 +37,8 @@ double mean_tilt_error(const PhantomCase& c, const PreparedContours& prepared, c
 FitOptions options_for(const PhantomCase& c) {
     FitOptions options;
     const double diagonal = bounding_box(c.contours).diagonal();
-    options.place.normal_offset_mm = 3e-3 * diagonal;
-    options.place.merge_distance_mm = 4e-4 * diagonal;
+    options.normal_offset_mm = 3e-3 * diagonal;
+    options.merge_distance_mm = 4e-4 * diagonal;
     options.solve.smoothing = 1e-5;
     return options;
 }
@@ -88,15 +88,16 @@ TEST(Fit, OneSolveWhereItIsToldWhichBoundsItLeansOn) {
         const PreparedContours prepared = prepare(c.contours);
         FitOptions options = options_for(c);
         options.most_points = 1000;
+        options.most_solves = 10;  // until it has settled
         const FittedFunction settled = fit(prepared, options);
         options.rounds = 0;
         options.start_slopes = settled.slopes;
         const FittedFunction untold = fit(prepared, options);
         EXPECT_GT(untold.solves, 1) << name;
-        for (const PointConstraint& one : settled.held)
+        for (const PointConstraint& one : settled.active_bounds)
             for (std::size_t b = 0; b < prepared.bounds.size(); ++b)
-                if (prepared.bounds[b].position == one.position) options.start_held.push_back(b);
-        ASSERT_EQ(options.start_held.size(), settled.held.size()) << name;
+                if (prepared.bounds[b].position == one.position) options.start_bounds.push_back(b);
+        ASSERT_EQ(options.start_bounds.size(), settled.active_bounds.size()) << name;
         const FittedFunction told = fit(prepared, options);
         EXPECT_EQ(told.solves, 1) << name;
         for (const BoundaryPoint& point : prepared.points) {
@@ -111,7 +112,7 @@ TEST(Fit, RefusesToHoldABoundThatIsNotThere) {
     const PreparedContours prepared = prepare(c.contours);
     FitOptions options = options_for(c);
     options.rounds = 0;
-    options.start_held = {prepared.bounds.size()};
+    options.start_bounds = {prepared.bounds.size()};
     try {
         static_cast<void>(fit(prepared, options));
         FAIL();
@@ -147,7 +148,7 @@ PreparedContours numbered_circles(const std::vector<std::int32_t>& numbers) {
 FittedFunction few_points(const PreparedContours& prepared, std::size_t points) {
     FitOptions options;
     options.tilt_points = options.most_points = points;
-    options.place.normal_offset_mm = 0.4;
+    options.normal_offset_mm = 0.4;
     options.solve.smoothing = 1e-5;
     return fit(prepared, options);
 }

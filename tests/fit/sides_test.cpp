@@ -48,7 +48,7 @@ TEST(FindSides, FollowWhatTheRestOfTheDrawingSays) {
         const std::vector<FoundSide> sides = find_sides(set);
         ASSERT_EQ(sides.size(), 1u);
         EXPECT_EQ(sides[0], (FoundSide{2, reversed ? Hand::right : Hand::left, true}));
-        EXPECT_EQ(sentence(sides[0]),
+        EXPECT_EQ(sentences({sides[0]}).front(),
                   std::string("contour 3 is open; the object was taken to lie on its ") + (reversed ? "right" : "left"));
         for (const BoundaryPoint& point : prepare(set).points) {
             if (point.contour != 2) continue;
@@ -80,6 +80,14 @@ TEST(FindSides, NeverOverruleWhatIsDeclared) {
     set.contours[0].inside = Hand::right;
     EXPECT_TRUE(find_sides(set).empty());
     EXPECT_EQ(set.contours[0].inside, Hand::right);
+}
+
+TEST(FindSides, ManyOfOneSideAreOneSentence) {
+    const std::vector<FoundSide> sides{{2, Hand::left, true}, {4, Hand::right, false}, {5, Hand::left, true}};
+    EXPECT_EQ(sentences(sides),
+              (std::vector<std::string>{
+                  "2 contours are open, the first of them contour 3; the object was taken to lie on their left",
+                  "contour 5 is open; the object was taken to lie on its right, which is doubtful"}));
 }
 
 }  // namespace

@@ -82,8 +82,8 @@ TEST(SumKernel, IsTheObviousDoubleLoop) {
             const std::vector<double> weights = random_weights(centers.size(), random);
             std::vector<double> sums(count);
             std::vector<Vec3> gradients(count);
-            sum_kernel(kernel, PointArrays(centers), weights, PointArrays(targets), sums, {.threads = 2});
-            sum_kernel_gradient(kernel, PointArrays(centers), weights, PointArrays(targets), gradients, {.threads = 2});
+            sum_kernel({kernel, PointArrays(centers), weights}, PointArrays(targets), sums, {.threads = 2});
+            sum_kernel_gradient({kernel, PointArrays(centers), weights}, PointArrays(targets), gradients, {.threads = 2});
             for (std::size_t t = 0; t < count; ++t) {
                 ASSERT_NEAR(sums[t], naive_sum(kernel, centers, weights, targets[t]), 1e-11);
                 ASSERT_LT(distance(gradients[t], naive_gradient(kernel, centers, weights, targets[t])), 1e-10);
@@ -93,7 +93,7 @@ TEST(SumKernel, IsTheObviousDoubleLoop) {
 
 TEST(SumKernel, NoCentersGiveZero) {
     std::vector<double> sums(3, 1.0);
-    sum_kernel(Kernel::triharmonic, {}, {}, PointArrays(std::vector<Vec3>(3)), sums, {.threads = 1});
+    sum_kernel({Kernel::triharmonic, PointArrays(), {}}, PointArrays(std::vector<Vec3>(3)), sums, {.threads = 1});
     EXPECT_EQ(sums, std::vector<double>(3, 0.0));
 }
 
@@ -104,11 +104,11 @@ TEST(SumKernel, SameBytesForAnyNumberOfThreads) {
     for (const Kernel kernel : kKernels) {
         std::vector<double> one(targets.size()), many(targets.size());
         std::vector<Vec3> one_gradient(targets.size()), many_gradients(targets.size());
-        sum_kernel(kernel, centers, weights, targets, one, {.threads = 1});
-        sum_kernel_gradient(kernel, centers, weights, targets, one_gradient, {.threads = 1});
+        sum_kernel({kernel, centers, weights}, targets, one, {.threads = 1});
+        sum_kernel_gradient({kernel, centers, weights}, targets, one_gradient, {.threads = 1});
         for (const int threads : {2, 3, 8}) {
-            sum_kernel(kernel, centers, weights, targets, many, {.threads = threads});
-            sum_kernel_gradient(kernel, centers, weights, targets, many_gradients, {.threads = threads});
+            sum_kernel({kernel, centers, weights}, targets, many, {.threads = threads});
+            sum_kernel_gradient({kernel, centers, weights}, targets, many_gradients, {.threads = threads});
             EXPECT_EQ(many, one) << threads;
             EXPECT_EQ(many_gradients, one_gradient) << threads;
         }

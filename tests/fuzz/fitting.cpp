@@ -36,6 +36,7 @@ PrepareOptions prepare_options(Choices& choose, double diameter) {
     options.bounds = choose.below(4) != 1;
     options.copy_shift_mm = choose.below(4) == 1 ? odd(choose, 0.005 * diameter) : 0;
     options.gaps = choose.below(4) != 1;
+    options.reconcile.conflicts = Conflicts::exact;  // another one follows
     options.click_margin_mm = odd(choose, 0.0045 * diameter);
     options.corners = choose.flag() ? Corners::faithful : Corners::rounded;
     options.corner_spacing_mm = odd(choose, 0.0012 * diameter);
@@ -66,8 +67,8 @@ FitOptions fit_options(Choices& choose, double diameter, const PreparedContours&
         options.start_slopes.assign(points + (choose.below(16) == 1 ? 1 : 0), choose.between(0.1, 1));
         options.start_slopes.front() = odd(choose, 0.5);
     }
-    options.place.normal_offset_mm = odd(choose, choose.between(1e-4, 0.02) * diameter);
-    options.place.merge_distance_mm = choose.flag() ? 0 : odd(choose, 6e-4 * diameter);
+    options.normal_offset_mm = odd(choose, choose.between(1e-4, 0.02) * diameter);
+    options.merge_distance_mm = choose.flag() ? 0 : odd(choose, 6e-4 * diameter);
     options.solve.kernel = static_cast<Kernel>(choose.below(3));
     // Dense ones take n^3: some seconds each for the 4,000 of a drawing of 147 points, with the sanitizers.
     if (most_constraints(prepared) < 1200) options.solve.solver = static_cast<Solver>(choose.below(4));
@@ -108,7 +109,7 @@ void fitting(Bytes bytes) {
     PreparedContours prepared = prepare(drawing, prepare_options(choose, diameter));
     const ReconcileOptions reconciling{.conflicts = static_cast<Conflicts>(choose.below(3)),
                                        .offset_mm = odd(choose, 0.0045 * diameter)};
-    reconcile(prepared.points, drawing.crossings, reconciling);
+    reconcile(prepared.points, drawing.crossings, diameter, reconciling);
     check(fit(prepared, fit_options(choose, diameter, prepared)), prepared, drawing.ball.center);
 }
 

@@ -49,13 +49,10 @@ TEST(RandomMixes, OfManyPointsCanBeThinnedToFew) {
         const std::vector<std::uint8_t> bytes = random_bytes(6000, random);
         Choices choose(bytes);
         const ContourSet set = mixed_drawing(choose);
-        const double diameter = diameter_mm(set);
         FitOptions options;
         options.tilt_points = options.most_points = 8;
         options.rounds = 1;
         options.most_solves = 2;
-        options.place = {.normal_offset_mm = 0.0045 * diameter, .merge_distance_mm = 6e-4 * diameter};
-        options.solve.smoothing = 1e-5;
         try {
             const PreparedContours prepared = prepare(read_drawing(set, FillRule::even_odd), {.least_segments = 200});
             EXPECT_EQ(fit(prepared, options).slopes.size(), prepared.points.size());
@@ -90,7 +87,7 @@ bool expect_end_of_drawing(int mix) {
     try {
         const Drawing drawing = read_drawing(set, FillRule::even_odd);
         const StageOptions stages = stage_options({.quality = 0.3}, drawing.diameter_mm());
-        f = fit(prepare(drawing, stages), stages.fit).function;
+        f = fit(prepare(drawing, stages.prepare), stages.fit).function;
     } catch (const Error&) {
         return false;
     }

@@ -37,7 +37,7 @@ void provenance(const std::filesystem::path& path) {
 /// Takes every choice that a careful user would be asked for, so that more of the readers is reached.
 void image(const std::string& name, Bytes bytes) {
     ReadImageOptions options;
-    options.frame = 0;
+    options.frame = 1;
     options.prefer = NiftiTransform::sform;
     options.allow_missing_geometry = true;
     options.max_voxels = options.dicom.max_voxels = kMaxVoxels;

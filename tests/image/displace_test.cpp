@@ -22,7 +22,7 @@ std::vector<Plane> three() {
 std::optional<HeldOutErrors> displaced(const ContourSet& contours, const Image& image) {
     const Drawing drawing = read_drawing(contours, FillRule::even_odd);
     const StageOptions stages = stage_options({}, drawing.diameter_mm());
-    return displace_planes(drawing, image, fit(prepare(drawing, stages), stages.fit).function, {});
+    return displace_planes(drawing, image, fit(prepare(drawing, stages.prepare), stages.fit).function, {});
 }
 
 TEST(Displace, ThreePlanesAreEnoughToTrustAnImageThatShowsTheBorder) {

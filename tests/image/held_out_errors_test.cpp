@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kVoxelMm = 0.1, kFarMm = 10;  // of every held-out point
 
-HeldOutErrors errors_of(const std::vector<HeldOut>& points, double hand_mm = 0) {
+HeldOutErrors errors_of(const std::vector<HeldOutPoint>& points, double hand_mm = 0) {
     std::vector<PlaneErrors> planes;
-    for (const HeldOut& point : points) {
+    for (const HeldOutPoint& point : points) {
         planes.resize(std::max(planes.size(), point.plane + 1));
         planes[point.plane].points.push_back(point);
     }
@@ -25,7 +25,7 @@ HeldOutErrors errors_of(const std::vector<HeldOut>& points, double hand_mm = 0) 
 
 /// Twenty points in each plane, 2 mm off without the image, and with it by so much less.
 HeldOutErrors errors_with_gains(const std::vector<double>& gains_mm) {
-    std::vector<HeldOut> points;
+    std::vector<HeldOutPoint> points;
     for (std::size_t plane = 0; plane < gains_mm.size(); ++plane)
         for (int n = 0; n < 20; ++n)
             points.push_back(
@@ -35,9 +35,9 @@ HeldOutErrors errors_with_gains(const std::vector<double>& gains_mm) {
 
 /// 20 planes of 100 points: errors of `error_mm`, of which an image tells that is off by `image_mm` of its own, and which
 /// are drawn by a hand that wavers by `hand_mm`.
-std::vector<HeldOut> told(double error_mm, double image_mm, double hand_mm = 0, double off_mm = 0) {
+std::vector<HeldOutPoint> told(double error_mm, double image_mm, double hand_mm = 0, double off_mm = 0) {
     Random random(3);
-    std::vector<HeldOut> points;
+    std::vector<HeldOutPoint> points;
     for (std::size_t plane = 0; plane < 20; ++plane)
         for (int n = 0; n < 100; ++n) {
             const double error = error_mm * random.gaussian(), image = image_mm * random.gaussian();
@@ -72,7 +72,7 @@ TEST(HeldOutErrors, BelowAQuarterOfAVoxelThereIsNothingToSeeNorOfACellForAWalk) 
     constexpr double kCellMm = 4 * kVoxelMm;
     const auto errors = [](double voxels) {
         const double error_mm = voxels * kVoxelMm;
-        std::vector<HeldOut> points;
+        std::vector<HeldOutPoint> points;
         for (std::size_t plane = 0; plane < 4; ++plane)
             for (int n = 0; n < 20; ++n)
                 points.push_back(
@@ -109,16 +109,16 @@ TEST(HeldOutErrors, AnUnsteadyHandDoesNotCountAgainstTheImage) {
 
 TEST(HeldOutErrors, WhatTheImageMayNotMendTellsNothingOfIt) {
     // Beyond the end of a stack the surface may not follow: 5 mm of error are left whatever the image shows.
-    std::vector<HeldOut> points = told(1, 1);
+    std::vector<HeldOutPoint> points = told(1, 1);
     for (int n = 0; n < 200; ++n) points.push_back({{1000.0 + n, 0, 0}, kFarMm, 5, 6, 0, 0});
     EXPECT_NEAR(mean_image_mm(errors_of(points)), mean_image_mm(errors_of(told(1, 1))), 0.15);
-    for (HeldOut& point : points) point.reachable_mm = point.without_mm;
+    for (HeldOutPoint& point : points) point.reachable_mm = point.without_mm;
     EXPECT_GT(mean_image_mm(errors_of(points)), 1.5);
 }
 
 TEST(HeldOutErrors, AnImageIsTrustedLessWhereItMisleads) {
-    std::vector<HeldOut> points = told(1, 0.3);
-    const std::vector<HeldOut> misled = told(1, 2, 0, 1000);
+    std::vector<HeldOutPoint> points = told(1, 0.3);
+    const std::vector<HeldOutPoint> misled = told(1, 2, 0, 1000);
     points.insert(points.end(), misled.begin(), misled.end());
     const HeldOutErrors errors = errors_of(points);
     EXPECT_GT(image_mm(errors, {1050, 0, 100}), 1.5 * image_mm(errors, {50, 0, 100}));
@@ -126,7 +126,7 @@ TEST(HeldOutErrors, AnImageIsTrustedLessWhereItMisleads) {
 
 TEST(HeldOutErrors, WhatCouldBeChanceIsNotFollowedAtAll) {
     // Of four planes one is told wrongly, and by much: the share that is true is 0.5, give or take 0.6.
-    std::vector<HeldOut> points;
+    std::vector<HeldOutPoint> points;
     for (std::size_t plane = 0; plane < 4; ++plane)
         for (int n = 0; n < 20; ++n) {
             const double moved = plane == 3 ? -1.4 : 1;

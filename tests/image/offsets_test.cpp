@@ -31,8 +31,8 @@ std::vector<double> inverse(std::vector<double> a, std::size_t n) {
     return result;
 }
 
-TEST(GaussianPosterior, IsWhatInvertingTheMatricesGives) {
-    constexpr std::size_t n = 7;
+void compare_with_inverses(std::size_t n) {
+    SCOPED_TRACE(n);
     Random random(5);
     std::vector<double> prior(n * n), precision(n), information(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -53,6 +53,10 @@ TEST(GaussianPosterior, IsWhatInvertingTheMatricesGives) {
         EXPECT_NEAR(posterior.variance[i] / covariance[i * n + i], 1, 1e-8);
         EXPECT_NEAR(by_weights, mean, 1e-10);
     }
+}
+
+TEST(GaussianPosterior, IsWhatInvertingTheMatricesGives) {
+    for (const std::size_t n : {1, 7, 16, 17, 70}) compare_with_inverses(n);
 }
 
 TEST(GaussianPosterior, RefusesNegativePrecisionsAndWrongCounts) {

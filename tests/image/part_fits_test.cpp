@@ -20,7 +20,7 @@ public:
         const Work work{.threads = threads};
         const Drawing drawing = read_drawing(contours, FillRule::even_odd);
         const StageOptions stages = stage_options({}, drawing.diameter_mm());
-        const PreparedContours prepared = prepare(drawing, stages, work);
+        const PreparedContours prepared = prepare(drawing, stages.prepare, work);
         const FittedFunction fitted = fit(prepared, stages.fit, work);
         std::atomic<int> fits = 0;
         const auto fit_part = [&](const ContourSet& part) {
@@ -29,7 +29,7 @@ public:
         };
         part_fits_.begin_question();
         ImageFit with_image = follow_image(
-            drawing, prepared, fitted, image(),
+            {drawing, prepared, fitted}, image(),
             [&](const ContourSet& part) { return part_fits_.of(part, drawing.diameter_mm(), fit_part); }, {.fit = stages.fit},
             work);
         return {std::move(with_image), fits};

@@ -19,7 +19,7 @@ struct FittedBody {
     FittedBody() {
         const Drawing drawing = read_drawing(contours, FillRule::even_odd);
         stages = stage_options({}, drawing.diameter_mm());
-        prepared = prepare(drawing, stages);
+        prepared = prepare(drawing, stages.prepare);
         fitted = fit(prepared, stages.fit);
     }
 
@@ -46,11 +46,12 @@ struct FittedBody {
 
 /// f through everything at once, with no point of the contours left out.
 ImplicitFunction solved_at_once(const FittedBody& body, const std::vector<PointConstraint>& more) {
-    std::vector<PointConstraint> single = body.fitted.held;
+    std::vector<PointConstraint> single = body.fitted.active_bounds;
     single.insert(single.end(), more.begin(), more.end());
     SolveOptions solving = body.stages.fit.solve;
     solving.ball = body.prepared.ball;
-    return solve(place_constraints(body.prepared.points, body.fitted.slopes, single, body.stages.fit.place).constraints,
+    return solve(place_constraints(body.prepared.points, body.fitted.slopes, single, place_options(body.stages.fit))
+                     .constraints,
                  solving)
         .function;
 }

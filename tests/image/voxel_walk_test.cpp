@@ -76,7 +76,7 @@ TEST(VoxelWalk, IsTheSameInAnInvertedImage) {
 TEST(VoxelWalk, OfAnImageThatShowsNothingStaysWhereItBegan) {
     const ContourSet contours = cut(planes_of_ball(), ball_depth);
     const WalkAboutBall about(image_of(cube_grid(2), [](const Vec3&) { return 5.0; }), contours);
-    EXPECT_FALSE(about.walk.asked.empty());
+    EXPECT_FALSE(about.walk.band.empty());
     EXPECT_EQ(about.share_inside([](const Vec3& p) { return norm(p) < 22; }), 1);
     EXPECT_EQ(about.share_inside([](const Vec3& p) { return norm(p) > 28; }), 0);
 }
@@ -93,7 +93,7 @@ TEST(VoxelWalk, AsksNothingInDrawnPlanesNorBeyondTheImage) {
     const ContourSet contours = cut(planes_of_ball(), ball_depth);
     const Grid half = grid_around({{-48, -48, -48}, {10, 48, 48}}, {2, 2, 2}, 0);
     const WalkAboutBall about(image_of(half, horned_look), contours);
-    for (const std::uint32_t cell : about.walk.asked) {
+    for (const std::uint32_t cell : about.walk.band) {
         const Vec3 p = about.cells.center(cell);
         EXPECT_LT(p.x, 12);
         EXPECT_GT(std::abs(p.z - 6), 0.99);
@@ -106,8 +106,8 @@ TEST(VoxelWalk, AskedNearAPlaneSaysThereWhatItSaysOtherwise) {
     const Image image = image_of(cube_grid(1.5), horned_look, 8);
     const CellSlab near{make_plane({15, 0, 0}, {1, 0, 0}), 8 * 1.5};
     const WalkAboutBall everywhere(image, contours), there(image, contours, near);
-    EXPECT_LT(there.walk.asked.size(), 0.7 * static_cast<double>(everywhere.walk.asked.size()));
-    for (const std::uint32_t cell : there.walk.asked) ASSERT_TRUE(near.holds(there.cells.center(cell)));
+    EXPECT_LT(there.walk.band.size(), 0.7 * static_cast<double>(everywhere.walk.band.size()));
+    for (const std::uint32_t cell : there.walk.band) ASSERT_TRUE(near.holds(there.cells.center(cell)));
     double wrong = 0, in_plane = 0;
     for (std::size_t n = 0; n < there.walk.inside.size(); ++n) {
         if (std::abs(there.cells.center(n).x - 15) > 0.8) continue;

@@ -89,9 +89,9 @@ TEST(CountWrong, IsTheAreaBetweenOutlines) {
     const double layers = wrong.drawn / (M_PI * (25 * 25 - 1));
     EXPECT_NEAR(layers, std::round(layers), 0.02 * std::round(layers));
     const double layer = wrong.drawn / std::round(layers);
-    EXPECT_NEAR(wrong.alone / std::round(layers), layer - M_PI * 20 * 20, 0.03 * layer);
-    EXPECT_NEAR(wrong.walked / std::round(layers), M_PI * 28 * 28 - layer, 0.03 * layer);
-    EXPECT_LT(wrong.moved, 0.03 * wrong.drawn);
+    EXPECT_NEAR(wrong.by_contours / std::round(layers), layer - M_PI * 20 * 20, 0.03 * layer);
+    EXPECT_NEAR(wrong.by_walk / std::round(layers), M_PI * 28 * 28 - layer, 0.03 * layer);
+    EXPECT_LT(wrong.by_movement, 0.03 * wrong.drawn);
     ContourSet open = plane;
     open.contours.front().closed = false;
     EXPECT_EQ(count_wrong(open, cells, alone, moved, walk).drawn, 0);

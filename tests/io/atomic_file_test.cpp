@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/bytes/atomic_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -64,6 +67,36 @@ TEST(AtomicFile, WritesSmallAndLargePiecesInOrder) {
         }
     });
     EXPECT_EQ(content_of(folder / "a.bin"), expected);
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+TEST(AtomicFile, AKilledWriterLeavesNothing) {
+    const test::TemporaryFolder folder;
+    write_file_atomically(folder / "old.txt", "whole");
+    const int trial = ::open(folder.path().c_str(), O_WRONLY | O_TMPFILE);
+    if (trial < 0) GTEST_SKIP() << "this file system has no files without a name";
+    ::close(trial);
+    const ::pid_t child = ::fork();
+    if (child == 0) {
+        AtomicFile file(folder / "old.txt");
+        file.write(std::string(1000000, 'x'));
+        ::raise(SIGKILL);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+    EXPECT_EQ(content_of(folder / "old.txt"), "whole");
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+TEST(AtomicFile, GivesLibrariesAPathWithTheTargetsExtension) {
+    const test::TemporaryFolder folder;
+    write_file_atomically(folder / "a.dcm", [&](AtomicFile& file) {
+        EXPECT_EQ(file.temporary_path().extension(), ".dcm");
+        EXPECT_EQ(file.temporary_path(), file.temporary_path());
+        std::ofstream(file.temporary_path(), std::ios::binary) << "by a library";
+    });
+    EXPECT_EQ(content_of(folder / "a.dcm"), "by a library");
     EXPECT_EQ(folder.entry_count(), 1);
 }
 
@@ -142,7 +175,7 @@ TEST(AtomicFile, RefusesLinksInACircle) {
 
 TEST(AtomicFile, AcceptsTheLongestName) {
     const test::TemporaryFolder folder;
-    const fs::path path = folder / (std::string(251, 'n') + ".txt");
+    const fs::path path = folder / std::string(251, 'n').append(".txt");
     write_file_atomically(path, "x");
     EXPECT_EQ(content_of(path), "x");
 }

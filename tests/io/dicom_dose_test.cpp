@@ -50,7 +50,7 @@ TEST_F(DicomDoseTest, ImagesBelowAFolderWithADoseAreFound) {
 
 TEST_F(DicomDoseTest, SeveralGridsOfOneSeriesAreVolumes) {
     const fs::path files = make_dose("two");
-    EXPECT_REFUSED(refusal(files), invalid_input, "several volumes; name one: ");
+    EXPECT_REFUSED(refusal(files), invalid_input, "several volumes; choose one with the option volume: ");
     EXPECT_REFUSED(refusal(files), invalid_input, "dose PHYSICAL PLAN in dose1.dcm");
     const DicomVolume second = read_dicom_series(files / "dose1.dcm");
     EXPECT_EQ(second.series.files.front().filename(), "dose1.dcm");

@@ -101,7 +101,7 @@ TEST(DicomReal, CineFramesLieWhereTheNiftiOfTheSameExamPutsThem) {
         int volume;
         std::int64_t nifti_frame;
     };
-    for (const Phase phase : {Phase{1, 7}, Phase{2, 18}}) {
+    for (const Phase phase : {Phase{1, 8}, Phase{2, 19}}) {
         const DicomVolume stack = read_dicom_series(folder / "dicom_contoured_frames", {.volume = phase.volume});
         const Image crop = read_nifti(folder / "cine4d_crop.nii.gz", {.frame = phase.nifti_frame, .prefer = {}});
         ASSERT_EQ(stack.image.grid.size, (Index3{256, 256, 9}));

@@ -74,7 +74,7 @@ TEST_F(WriteDicomSeg, ComesBackVoxelByVoxelHereAndElsewhere) {
         SCOPED_TRACE(images);
         use_images(images);
         const Image labels = random_labels();
-        write_dicom_seg(path(), labels, three_segments(), series_, {.algorithm = {"interpolation", "1.2", "kernel=r\\3"}});
+        write_dicom_seg(path(), {labels, three_segments()}, series_, {.algorithm = {"interpolation", "1.2", "kernel=r\\3"}});
         const Image again = read_image(path());
         EXPECT_EQ(again.samples, labels.samples);
         EXPECT_LT(corner_distance_mm(again.grid, grid_), 1e-6);
@@ -91,20 +91,20 @@ TEST_F(WriteDicomSeg, ComesBackVoxelByVoxelHereAndElsewhere) {
 TEST_F(WriteDicomSeg, HowItWasMadeComesBack) {
     use_images("axial");
     const Provenance made{{"contours_sha256", std::string(64, 'a')}, {"made_by", "kontur convert"}, {"note", "a; b"}};
-    write_dicom_seg(path(), random_labels(), three_segments(), series_, {.provenance = made});
+    write_dicom_seg(path(), {random_labels(), three_segments()}, series_, {.provenance = made});
     EXPECT_EQ(read_provenance(path()), made);
 }
 
 TEST_F(WriteDicomSeg, NoValueOfHowItWasMadeCanPassForTwoEntries) {
     use_images("axial");
     const Provenance made{{"note", "a; word: x"}, {"ends", "b;"}, {"twice", ";; c: d;;;"}, {"empty", ""}, {"last", ";"}};
-    write_dicom_seg(path(), random_labels(), three_segments(), series_, {.provenance = made});
+    write_dicom_seg(path(), {random_labels(), three_segments()}, series_, {.provenance = made});
     EXPECT_EQ(read_provenance(path()), made);
 }
 
 TEST_F(WriteDicomSeg, HowItWasMadeIsReadWithUndoubledSemicolonsToo) {
     use_images("axial");
-    write_dicom_seg(path(), random_labels(), three_segments(), series_,
+    write_dicom_seg(path(), {random_labels(), three_segments()}, series_,
                     {.provenance = {{"note", "a;b"}, {"made_by", "kontur convert"}}});
     std::string bytes = test::read_bytes(path());
     const std::size_t doubled = bytes.find("a;;b");
@@ -115,7 +115,7 @@ TEST_F(WriteDicomSeg, HowItWasMadeIsReadWithUndoubledSemicolonsToo) {
 
 TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
     use_images("odd");
-    write_dicom_seg(path(), random_labels(), three_segments(), series_);
+    write_dicom_seg(path(), {random_labels(), three_segments()}, series_);
     const DicomSegmentation found = read_dicom_segmentation(path());
     ASSERT_EQ(found.segments.size(), 3u);
     EXPECT_EQ(found.segments[0].label, "L\xC3\xA4sion \xD0\x96");
@@ -135,11 +135,11 @@ TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
 TEST_F(WriteDicomSeg, SaysWhichNamesItChanged) {
     use_images("axial");
     std::vector<DicomSegment> segments = three_segments();
-    EXPECT_TRUE(write_dicom_seg(path(), random_labels(), segments, series_).empty());
+    EXPECT_TRUE(write_dicom_seg(path(), {random_labels(), segments}, series_).empty());
     segments[0].label = std::string(70, 'a');
     segments[1].label = std::string(64, 'a');
     segments[2].label = "back\\slash";
-    const std::vector<std::string> notes = write_dicom_seg(path(), random_labels(), segments, series_);
+    const std::vector<std::string> notes = write_dicom_seg(path(), {random_labels(), segments}, series_);
     ASSERT_EQ(notes.size(), 3u);
     EXPECT_NE(
         notes[2].find("has backslashes or control characters, which DICOM cannot hold there; it is written as 'back/slash'"),
@@ -149,13 +149,13 @@ TEST_F(WriteDicomSeg, SaysWhichNamesItChanged) {
     EXPECT_EQ(again[0].label, std::string(64, 'a'));
     EXPECT_EQ(again[1].label, std::string(60, 'a') + " (2)") << "or two segments would have one name";
     segments[0].label = "Leb\xe4r";
-    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), random_labels(), segments, series_), ErrorKind::invalid_input,
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), {random_labels(), segments}, series_), ErrorKind::invalid_input,
                         "is not UTF-8");
 }
 
 TEST_F(WriteDicomSeg, NamesANewFrameOfReferenceWhereTheImagesNameNone) {
     use_images("no_frame");
-    write_dicom_seg(path(), random_labels(), three_segments(), series_);
+    write_dicom_seg(path(), {random_labels(), three_segments()}, series_);
     EXPECT_FALSE(read_dicom_segmentation(path()).frame_of_reference_uid.empty());
 }
 
@@ -176,7 +176,7 @@ TEST_F(WriteDicomSeg, TakesMirroredTurnedAndCroppedMasks) {
             for (std::int64_t i = 0; i + 2 < grid_.size.i; ++i)
                 moved[turned.offset(grid_.size.k - 1 - k, i, j)] = expected[grid_.offset(i, j, k)] =
                     values[grid_.offset(i, j, k)];
-    write_dicom_seg(path(), {turned, moved}, three_segments(), series_);
+    write_dicom_seg(path(), {{turned, moved}, three_segments()}, series_);
     EXPECT_EQ(read_image(path()).samples, Image::Samples(expected));
 }
 
@@ -189,16 +189,16 @@ TEST_F(WriteDicomSeg, KeepsEveryVoxelOfOverlappingMasks) {
     }
     auto segments = three_segments();
     segments.pop_back();
-    write_dicom_seg_masks(path(), masks, segments, series_);
+    write_dicom_seg_masks(path(), {masks, segments}, series_);
     const std::vector<Mask> again = read_dicom_seg_masks(path());
     ASSERT_EQ(again.size(), 2u);
     EXPECT_EQ(again[0].values, masks[0].values);
     EXPECT_EQ(again[1].values, masks[1].values);
     EXPECT_GT(read_dicom_segmentation(path()).segments[0].shared_voxels, 0);
-    EXPECT_KONTUR_ERROR(write_dicom_seg_masks(path(), masks, three_segments(), series_), ErrorKind::invalid_input,
+    EXPECT_KONTUR_ERROR(write_dicom_seg_masks(path(), {masks, three_segments()}, series_), ErrorKind::invalid_input,
                         "there are 2 masks for 3 segments");
     masks[1].values.assign(masks[1].values.size(), 0);
-    EXPECT_KONTUR_ERROR(write_dicom_seg_masks(path(), masks, segments, series_), ErrorKind::invalid_input,
+    EXPECT_KONTUR_ERROR(write_dicom_seg_masks(path(), {masks, segments}, series_), ErrorKind::invalid_input,
                         "the segment 'two' has no voxels");
 }
 
@@ -207,27 +207,27 @@ TEST_F(WriteDicomSeg, RefusesWhatDoesNotFit) {
     Image labels = random_labels();
     auto segments = three_segments();
     segments.pop_back();
-    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, segments, series_), ErrorKind::invalid_input,
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), {labels, segments}, series_), ErrorKind::invalid_input,
                         "have the label 3, which no segment has");
     segments = three_segments();
     segments.push_back({.number = 7, .label = "seven"});
-    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, segments, series_), ErrorKind::invalid_input,
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), {labels, segments}, series_), ErrorKind::invalid_input,
                         "segment 7 'seven' has no voxels");
     const Vec3 first_slice = labels.grid.index_to_mm.translation;
     const auto& values = std::get<std::vector<std::uint8_t>>(labels.samples);
     const auto of_last_slice =
         std::count_if(values.end() - grid_.size.i * grid_.size.j, values.end(), [](auto v) { return v != 0; });
     labels.grid.index_to_mm.translation = grid_.center_mm(0, 0, 1);
-    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), {labels, three_segments()}, series_), ErrorKind::invalid_input,
                         std::to_string(of_last_slice) + " of the mask's ");
     labels.grid.index_to_mm.translation = first_slice;
     labels.grid.index_to_mm.translation.x += 0.35;
-    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), {labels, three_segments()}, series_), ErrorKind::invalid_input,
                         "they are up to 0.5 of a voxel off; the limit is 0.05");
     labels.grid.index_to_mm = grid_.index_to_mm;
     labels.grid.index_to_mm.set_column(2, 0.5 * grid_.index_to_mm.column(2));
     EXPECT_KONTUR_ERROR(
-        write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
+        write_dicom_seg(path(), {labels, three_segments()}, series_), ErrorKind::invalid_input,
         "the mask's voxels of 0.7 x 0.8 x 1.25 mm are not those of the images, which have 0.7 x 0.8 x 2.5 mm");
     EXPECT_FALSE(fs::exists(path()));
 }

@@ -180,7 +180,7 @@ TEST_F(DicomSeriesTest, IgnoresTagsThatSetNoVolumesApart) {
 
 TEST_F(DicomSeriesTest, AsksWhichOfSeveralSeries) {
     const fs::path files = make("other_series");
-    EXPECT_REFUSED(refusal(files), invalid_input, "several series; name one");
+    EXPECT_REFUSED(refusal(files), invalid_input, "several series; choose one with the option series_uid: ");
     const auto found = list_dicom_series(files);
     ASSERT_EQ(found.size(), 2u);
     for (const DicomSeries& series : found) {
@@ -237,7 +237,7 @@ TEST_F(DicomSeriesTest, TellsVolumesAtTheSamePositionsApart) {
     for (const char* name : {"echoes", "times"}) {
         const fs::path files = make(name);
         const Truth truth = read_truth(folder_ / name);
-        EXPECT_REFUSED(refusal(files), invalid_input, "several volumes; name one");
+        EXPECT_REFUSED(refusal(files), invalid_input, "several volumes; choose one with the option volume: ");
         for (int volume : {1, 2}) {
             const DicomVolume read = read_dicom_series(files, {.volume = volume});
             for (std::size_t n = 0; n < truth.values.size(); ++n)

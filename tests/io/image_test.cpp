@@ -263,7 +263,7 @@ TEST(RealImages, FractionalLabelsAreNamed) {
     const char* file = "11_4d_echo_itksnap/seg4d_11f.nii.gz";
     KONTUR_REQUIRE_DATA(file);
     std::int64_t refused = 0;
-    for (std::int64_t frame = 0; frame < 11; ++frame) {
+    for (std::int64_t frame = 1; frame <= 11; ++frame) {
         ReadImageOptions options;
         options.frame = frame;
         try {

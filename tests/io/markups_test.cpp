@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -35,7 +37,7 @@ std::string replaced(std::string_view what, std::string_view with) {
 
 class Markups : public testing::Test {
 protected:
-    ContourSet read(std::string_view text, const ReadMarkupsOptions& options = {}) {
+    ContourSet read(std::string_view text, const ReadMarkupsOptions& options = {.curves = Curves::polygon}) {
         std::ofstream(folder_ / "in.mrk.json", std::ios::binary) << text;
         return read_markups(folder_ / "in.mrk.json", options);
     }
@@ -106,6 +108,22 @@ TEST_F(Markups, OpenCurvesAreStretchesOfTheBoundary) {
     EXPECT_NO_THROW(check_contours(set));
 }
 
+TEST_F(Markups, ASplineRunsThroughEachPointWithinThePlaneAndSaysHowFarItIsOff) {
+    std::vector<double> off_mm;
+    const ContourSet set = read(kSmall, {.on_spline = [&](double mm) { off_mm.push_back(mm); }});
+    ASSERT_EQ(set.contours.size(), 1u);
+    const std::vector<Vec3>& points = set.contours[0].points;
+    for (const Vec3& control : {Vec3{13, -11, 112.5}, Vec3{5, -3, 112.5}, Vec3{-3, -11, 112.5}})
+        EXPECT_EQ(std::ranges::count(points, control), 1);
+    for (const Vec3& p : points) EXPECT_NEAR(p.z, 112.5, 1e-12);
+    EXPECT_EQ(points.size(), 30u);
+    ASSERT_EQ(off_mm.size(), 1u);
+    // With three points the slope at each is the vector between the other two; half way from the first to the second point:
+    EXPECT_TRUE(std::ranges::any_of(points, [](const Vec3& p) { return distance(p, {12, -6, 112.5}) < 1e-9; }));
+    EXPECT_NEAR(off_mm[0], 2 * std::sqrt(2.0), 1e-9);
+    EXPECT_NO_THROW(check_contours(set));
+}
+
 TEST_F(Markups, AStraightOpenCurveLiesInAPlaneParallelToAnothers) {
     const std::string curves = replaced(R"("positionStatus": "defined"},)"
                                         R"({"id": "3", "position": [-3.0, -11.0, 112.5]}]}]})",
@@ -160,7 +178,7 @@ TEST_F(Markups, LeavesOutACurveWithoutAPoint) {
         {"type": "ClosedCurve", "coordinateSystem": "LPS", "name": "whole", "controlPoints":
          [{"position": [0, 0, 5]}, {"position": [9, 0, 5]}, {"position": [9, 9, 5]}]}]})";
     std::ofstream(folder_ / "begun.mrk.json") << kFile;
-    const ReadContours found = read_contours(folder_ / "begun.mrk.json");
+    const ReadContours found = read_contours(folder_ / "begun.mrk.json", {.roi = {}, .curves = Curves::polygon});
     EXPECT_EQ(found.contours.contours.size(), 1u);
     EXPECT_EQ(found.contours.name, "whole");
     EXPECT_EQ(found.notes, (std::vector<std::string>{"left out 1 curve without a point"}));

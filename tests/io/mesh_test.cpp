@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "support/bodies.h"
 #include "support/expect_error.h"
@@ -96,6 +97,39 @@ TEST(MeshFile, StlComesBackAsOneClosedSurfaceInPlace) {
     EXPECT_TRUE(shape.closed);
     EXPECT_TRUE(shape.oriented);
     EXPECT_EQ(shape.euler, 0);
+}
+
+/// As other programs write it, to the digits that a float needs.
+std::string text_stl(const TriangleMesh& mesh, const std::string& title) {
+    std::ostringstream text;
+    text.precision(9);
+    text << "solid " << title << "\r\n";
+    for (const auto& triangle : mesh.triangles) {
+        text << "  FACET normal 0 0 1\r\n    outer loop\r\n";
+        for (const std::uint32_t corner : triangle) {
+            const Vec3& p = mesh.points[corner];
+            text << "\tvertex " << static_cast<float>(p.x) << " " << static_cast<float>(p.y) << "  "
+                 << static_cast<float>(p.z) << "\r\n";
+        }
+        text << "    endloop\r\n  endfacet\r\n";
+    }
+    text << "endsolid " << title << "\r\n";
+    return text.str();
+}
+
+TEST(MeshFile, TextStlIsTheSameMeshAsBinaryStl) {
+    const TemporaryFolder folder;
+    write_mesh(folder / "binary.stl", body());
+    const TriangleMesh binary = read_mesh(folder / "binary.stl"), text = read_text(folder, "t.stl", text_stl(body(), "x"));
+    EXPECT_EQ(text.points, binary.points);
+    EXPECT_EQ(text.triangles, binary.triangles);
+    const TriangleMesh ras = read_text(folder, "r.stl", text_stl(body(), "x SPACE=RAS"));
+    EXPECT_EQ(ras.points[3], (Vec3{-text.points[3].x, -text.points[3].y, text.points[3].z}));
+    TriangleMesh one = body();
+    one.triangles.resize(1);
+    const std::string whole = text_stl(one, "x");
+    for (std::size_t size = whole.find("endfacet") + 8; size < whole.find("endsolid") + 8; ++size)
+        EXPECT_KONTUR_ERROR(read_text(folder, "cut.stl", whole.substr(0, size)), ErrorKind::corrupt_file, "cut.stl");
 }
 
 TEST(MeshFile, EmptyMeshAndMeshWithoutNormalsSurvive) {
@@ -290,7 +324,14 @@ TEST(MeshFile, NamesWhatIsWrongInAText) {
     EXPECT_KONTUR_ERROR(read_text(folder, "a.obj", "v 0 0 nan\n"), ErrorKind::corrupt_file, "nan");
     EXPECT_KONTUR_ERROR(read_text(folder, "a.obj", "v 0 0 0\nf 1 1 2\n"), ErrorKind::corrupt_file, "point 2 of 1");
     EXPECT_KONTUR_ERROR(read_text(folder, "a.obj", "v 0 0 0\nf 1 1\n"), ErrorKind::corrupt_file, "2 corners");
-    EXPECT_KONTUR_ERROR(read_text(folder, "a.stl", "solid x\n facet normal 0 0 1\n"), ErrorKind::unsupported, "text STL");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.stl", "solid x\n facet normal 0 0 1\n"), ErrorKind::corrupt_file,
+                        "amid its triangles");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.stl", "solid x\nfacet\nvertex 0 0 0\nendfacet\nendsolid\n"),
+                        ErrorKind::corrupt_file, "line 4: a facet has 1 corners; 3 are needed");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.stl", "solid x\nfacet\nvertex 0 1e99 0\n"), ErrorKind::corrupt_file,
+                        "line 3: the coordinate 1e+99 is beyond");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.stl", "solid x\nfacet\nedge 0 1\n"), ErrorKind::corrupt_file,
+                        "\"edge\" is no word of STL");
     EXPECT_KONTUR_ERROR(read_text(folder, "a.off", ""), ErrorKind::unsupported, ".off");
     EXPECT_KONTUR_ERROR(read_text(folder, "a.vtk", ""), ErrorKind::corrupt_file, "# vtk DataFile");
     EXPECT_KONTUR_ERROR(read_text(folder, "a.vtp", "<VTKFile type=\"ImageData\"></VTKFile>"), ErrorKind::unsupported,

@@ -91,8 +91,8 @@ TEST_F(MetaImageLines, FramesAndChannelsNeedAChoice) {
     voxels = "a1b2c3d4e5f6g7h8";
     const auto expect_second = [&](const std::string& expected) {
         options.frame.reset();
-        expect_refused(ErrorKind::unsupported, "2 frames; choose one with the option frame (0 to 1)");
-        options.frame = 1;
+        expect_refused(ErrorKind::unsupported, "2 frames; choose one with the option frame (1 to 2)");
+        options.frame = 2;
         EXPECT_EQ(read().samples, Image::Samples(std::vector<std::uint8_t>(expected.begin(), expected.end())));
     };
     set("ElementNumberOfChannels", "2");

@@ -274,7 +274,7 @@ TEST_F(Spoiled, VoxelCountsBeyond64BitsAreRefused) {
     for (std::size_t axis = 1; axis <= 3; ++axis) put<std::int64_t>(bytes, 16 + 8 * axis, 2);
     put<std::int64_t>(bytes, 16, 4);
     put<std::int64_t>(bytes, 16 + 8 * 4, std::numeric_limits<std::int64_t>::max());
-    options.frame = 0;
+    options.frame = 1;
     expect_refused(ErrorKind::corrupt_file, "frames");
 }
 
@@ -355,11 +355,13 @@ TEST_F(Spoiled, MissingTransformsNeedConsent) {
 TEST(Nifti, ReadsTheChosenFrame) {
     KONTUR_REQUIRE_DATA("11_4d_echo_itksnap/seg4d_11f_label1.nii.gz");
     const fs::path path = test::data_dir() / "11_4d_echo_itksnap/seg4d_11f_label1.nii.gz";
-    expect_error(ErrorKind::unsupported, "11 frames; choose one with the option frame (0 to 10)", [&] { read_nifti(path); });
+    expect_error(ErrorKind::unsupported, "11 frames; choose one with the option frame (1 to 11)", [&] { read_nifti(path); });
     ReadImageOptions options;
-    options.frame = 11;
-    expect_error(ErrorKind::invalid_input, "frame 11", [&] { read_nifti(path, options); });
-    options.frame = 0;
+    for (const std::int64_t frame : {0, 12}) {
+        options.frame = frame;
+        expect_error(ErrorKind::invalid_input, "it has frames 1 to 11", [&] { read_nifti(path, options); });
+    }
+    options.frame = 1;
     EXPECT_EQ(count_labels(read_nifti(path, options)), (std::map<std::int64_t, std::int64_t>{{1, 80}}));
     EXPECT_EQ(read_nifti_grid(path).size, (Index3{38, 35, 38}));
 }

@@ -123,7 +123,7 @@ TEST(Nrrd, MasksThatOverlapLieOnLayers) {
     for (std::size_t n = 0; n < 3; ++n) {
         EXPECT_EQ(again[n].name, segments[n].name);
         ReadImageOptions options;
-        options.frame = again[n].layer;
+        options.frame = again[n].layer + 1;
         const Image layer = read_nrrd(folder / "a.seg.nrrd", options);
         EXPECT_EQ(select_label(layer, static_cast<double>(again[n].label_value)).values, masks[n].values) << n;
         EXPECT_EQ(layer.grid.size, grid.size);
@@ -149,16 +149,21 @@ TEST(Nrrd, SegmentsOfThreeAxesLieOnOneLayerThoughTheFileNamesNone) {
 
 TEST(Nrrd, ALabelOfOneSegmentSaysItsLayer) {
     const std::vector<NrrdSegment> segments{{"one", {}, 1, 0}, {"two", {}, 2, 1}, {"three", {}, 3, 0}, {"again", {}, 3, 1}};
-    EXPECT_EQ(layer_of(segments, 2), 1);
-    EXPECT_EQ(layer_of(segments, 3), std::nullopt);
-    EXPECT_EQ(layer_of(segments, 4), std::nullopt);
+    EXPECT_EQ(segment_numbers(segments), (std::vector<std::int64_t>{1, 2, 3, 4})) << "two share a value: by their places";
+    EXPECT_EQ(segment_of_number(segments, 4), &segments[3]);
+    EXPECT_EQ(segment_of_number(segments, 5), nullptr);
+    const std::vector<NrrdSegment> unlike{{"one", {}, 7, 0}, {"two", {}, 2, 1}};
+    EXPECT_EQ(segment_numbers(unlike), (std::vector<std::int64_t>{7, 2}));
+    EXPECT_EQ(segment_of_number(unlike, 2), &unlike[1]);
+    EXPECT_EQ(segment_of_number(unlike, 1), nullptr);
     const test::TemporaryFolder folder;
     const Grid grid = test::all_orientations()[5];
     std::vector<Mask> masks(2, {grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()), 1)});
     masks[1].values[3] = 0;
     write_seg_nrrd_masks(folder / "a.seg.nrrd", masks, std::span(segments).first(2));
     EXPECT_EQ(read_mask(folder / "a.seg.nrrd", 2).values, masks[1].values);
-    expect_error(ErrorKind::unsupported, "2 frames", [&] { read_mask(folder / "a.seg.nrrd"); });
+    expect_error(ErrorKind::invalid_input, "choose one with the option label: 1 'one', 2 'two'",
+                 [&] { read_mask(folder / "a.seg.nrrd"); });
 }
 
 TEST(Nrrd, RejectsEveryTruncatedPrefix) {
@@ -173,6 +178,27 @@ TEST_F(NrrdLines, EveryTruncatedPrefixOfRawIsRefused) {
     test::expect_prefixes_refused(folder / "a.nrrd", folder / "part.nrrd", [](const fs::path& path) { read_nrrd(path); });
 }
 
+TEST(Nrrd, MasksThatOverlapKeepLabelsThatTellThemApart) {
+    const test::TemporaryFolder folder;
+    const Grid grid = test::all_orientations()[5];
+    std::vector<Mask> masks(2, {grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))});
+    masks[0].values[0] = masks[0].values[1] = masks[1].values[1] = 1;
+    const auto labels_of = [&](std::int64_t first, std::int64_t second) {
+        const std::vector<NrrdSegment> segments{{"one", {1, 0, 0}, first}, {"two", {0, 1, 0}, second}};
+        write_seg_nrrd_masks(folder / "a.seg.nrrd", masks, segments);
+        const auto again = read_nrrd_segments(folder / "a.seg.nrrd");
+        ReadImageOptions options;
+        options.frame = again[1].layer + 1;
+        EXPECT_EQ(select_label(read_nrrd(folder / "a.seg.nrrd", options), static_cast<double>(again[1].label_value)).values,
+                  masks[1].values);
+        return std::pair(again[0].label_value, again[1].label_value);
+    };
+    EXPECT_EQ(labels_of(26, 300), std::pair(26L, 300L));
+    EXPECT_EQ(labels_of(7, 7), std::pair(1L, 2L));
+    EXPECT_EQ(labels_of(0, 5), std::pair(1L, 2L));
+    EXPECT_EQ(labels_of(5, 65536), std::pair(1L, 2L));
+}
+
 TEST_F(NrrdLines, LayersNeedAChoice) {
     set("dimension", "4");
     voxels = "a1b2c3d4e5f6g7h8";
@@ -180,8 +206,8 @@ TEST_F(NrrdLines, LayersNeedAChoice) {
         set("sizes", first ? "2 2 2 2" : "2 2 2 2");
         set("space directions", first ? "none (1,0,0) (0,1,0) (0,0,1)" : "(1,0,0) (0,1,0) (0,0,1) none");
         options.frame.reset();
-        expect_refused(ErrorKind::unsupported, "2 frames; choose one with the option frame (0 to 1)");
-        options.frame = 1;
+        expect_refused(ErrorKind::unsupported, "2 frames; choose one with the option frame (1 to 2)");
+        options.frame = 2;
         const std::string expected = first ? "12345678" : "e5f6g7h8";
         EXPECT_EQ(read().samples, Image::Samples(std::vector<std::uint8_t>(expected.begin(), expected.end())));
     }

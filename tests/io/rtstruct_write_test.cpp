@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -46,8 +47,8 @@ protected:
         return {grid_.center_mm(0, 0, k), cross(u, v), u, v};
     }
 
-    void add(ContourSet& set, const Plane& plane, double u, double v, double radius, int points = 24) const {
-        set.contours.push_back({.plane = plane, .points = ring(plane, u, v, radius, points)});
+    void add(ContourSet& set, const Plane& plane, const std::array<double, 2>& at, double radius, int points = 24) const {
+        set.contours.push_back({.plane = plane, .points = ring(plane, at[0], at[1], radius, points)});
     }
 
     static StructureAttributes attributes() {
@@ -64,12 +65,12 @@ protected:
         Roi roi;
         roi.name = "L\xC3\xA4sion \xD0\x96";
         roi.contours.attributes = attributes();
-        add(roi.contours, slice(2), 4.03, 4.11, 3.47);
-        add(roi.contours, slice(2), 2.53, 4.07, 1.2);
-        add(roi.contours, slice(2), 2.53, 4.07, 0.5);
-        add(roi.contours, slice(2), 5.53, 4.31, 0.8);
-        add(roi.contours, slice(2), 8.51, 6.03, 0.8);
-        add(roi.contours, slice(3), 4.03, 4.11, 3.03);
+        add(roi.contours, slice(2), {4.03, 4.11}, 3.47);
+        add(roi.contours, slice(2), {2.53, 4.07}, 1.2);
+        add(roi.contours, slice(2), {2.53, 4.07}, 0.5);
+        add(roi.contours, slice(2), {5.53, 4.31}, 0.8);
+        add(roi.contours, slice(2), {8.51, 6.03}, 0.8);
+        add(roi.contours, slice(3), {4.03, 4.11}, 3.03);
         return roi;
     }
 
@@ -156,7 +157,7 @@ TEST_F(WriteRtstruct, KeepsLongContours) {
     use_images("axial");
     Roi roi;
     roi.name = "long";
-    add(roi.contours, slice(4), 4, 4, 3, 8000);
+    add(roi.contours, slice(4), {4, 4}, 3, 8000);
     write(roi);
     EXPECT_GT(fs::file_size(path()), 300'000u);
     EXPECT_NE(verdict().find("CLOSED_PLANAR 8000 28.2743"), std::string::npos);
@@ -168,7 +169,7 @@ TEST_F(WriteRtstruct, KeepsLongContours) {
 TEST_F(WriteRtstruct, SaysWhichContoursLieOnNoSlice) {
     use_images("axial");
     Roi roi = holes();
-    add(roi.contours, make_plane(grid_.center_mm(7, 6, 4), {1, 0, 0}), 0, 0, 3);
+    add(roi.contours, make_plane(grid_.center_mm(7, 6, 4), {1, 0, 0}), {0, 0}, 3);
     const std::vector<std::string> notes = write(roi);
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_TRUE(notes.front().starts_with("1 contour lies on no slice of the images")) << notes.front();

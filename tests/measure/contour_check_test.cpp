@@ -259,6 +259,24 @@ TEST(ContourCheck, ContoursThatStandAlone) {
     EXPECT_EQ(found.severity, Severity::note);
 }
 
+TEST(ContourCheck, RingsOfATubeThatAreFarApart) {
+    const auto arch = [](double step) {
+        ContourSet set;
+        for (double angle = 0; angle < 2.5; angle += step) {
+            const Vec3 along{-std::sin(angle), std::cos(angle), 0}, middle{60 * std::cos(angle), 60 * std::sin(angle), 0};
+            set.contours.push_back(test::circle(make_plane(middle, along), 5, 60));
+        }
+        return set;
+    };
+    const Finding found = only(arch(0.6), Kind::far_rings);
+    EXPECT_EQ(found.severity, Severity::note);
+    EXPECT_NEAR(*found.value_mm, 120 * std::sin(0.3), 0.01);
+    EXPECT_EQ(*found.other, *found.contour + 1);
+    EXPECT_NE(found.text.find("the farthest of 4 such pairs"), std::string::npos) << found.text;
+    EXPECT_EQ(count(arch(0.35), Kind::far_rings), 0u);
+    EXPECT_EQ(count(test::ball_slices({}, 20, 4, 4), Kind::far_rings), 0u);
+}
+
 TEST(ContourCheck, MissingSlices) {
     ContourSet set;
     for (const int slice : {0, 1, 2, 3, 6, 7, 8}) set.contours.push_back(test::circle(axial_at(3 * slice), 20, 60));

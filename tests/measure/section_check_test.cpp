@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "kontur/measure/section_faults.h"
 #include "kontur/shape/apply_fill_rule.h"
 #include "support/contour_sets.h"
 #include "support/moved.h"
@@ -251,6 +252,65 @@ TEST(SectionCheck, NamesWhatRunsAwayFromTheDrawing) {
     const SectionCheck check = checked(slices(), [](const Vec3& p) { return 15 - std::hypot(p.x, p.y); });
     EXPECT_TRUE(check.is_outside_wrong);
     EXPECT_GT(check.outside_share, 0.2);
+}
+
+TEST(SectionCheck, FaultsAreOnePlaceForEachPlaneAndPair) {
+    EXPECT_TRUE(faults(checked(slices(), ball({}, kRadius))).empty());
+    const double at = slices().contours[4].plane.origin.z;
+    const std::vector<SectionFault> island = faults(checked(slices(), either(ball({}, kRadius), ball({24, 0, at}, 2))));
+    ASSERT_EQ(island.size(), 1u);
+    EXPECT_EQ(name(island[0].kind), "island");
+    EXPECT_EQ(island[0].contours, std::vector<std::size_t>{4});
+    EXPECT_LT(distance(island[0].position, {26, 0, at}), 1.2);
+    ContourSet rings;
+    for (int n = 0; n < 6; ++n) rings.contours.push_back(test::circle(axial_at(33.0 * n), 5, 60));
+    const std::vector<SectionFault> pearls = faults(
+        checked(rings, [](const Vec3& p) { return 5 - std::hypot(p.x, p.y, p.z - 33 * std::round(p.z / 33)); }));
+    ASSERT_EQ(pearls.size(), 5u);
+    for (const SectionFault& fault : pearls) {
+        EXPECT_EQ(name(fault.kind), "between");
+        EXPECT_EQ(fault.share, 1);
+        EXPECT_NEAR(fault.length_mm, 33, 1e-9);
+        EXPECT_EQ(fault.contours.size(), 2u);
+    }
+    const std::vector<SectionFault> far = faults(checked(drum(), cylinder(40, -9, 18)));
+    ASSERT_EQ(far.size(), 1u);
+    EXPECT_EQ(name(far[0].kind), "beyond");
+    EXPECT_NEAR(far[0].length_mm, 9, 0.3);
+    const std::vector<SectionFault> away =
+        faults(checked(slices(), [](const Vec3& p) { return 15 - std::hypot(p.x, p.y); }));
+    ASSERT_FALSE(away.empty());
+    EXPECT_EQ(name(away.back().kind), "outside");
+}
+
+TEST(SectionCheck, NamesWhatIsMissingAlongABend) {
+    constexpr double kTube = 5, kTurn = 60;
+    const auto middle = [](double angle) { return Vec3{kTurn * std::cos(angle), kTurn * std::sin(angle), 0}; };
+    ContourSet set;
+    for (int n = 0; n <= 6; ++n) {
+        const double angle = n * M_PI / 6;
+        set.contours.push_back(test::circle(make_plane(middle(angle), {-std::sin(angle), std::cos(angle), 0}), kTube, 40));
+    }
+    const Solid arch = [](const Vec3& p) {
+        return std::min(kTube - std::hypot(std::hypot(p.x, p.y) - kTurn, p.z), p.y + 3);
+    };
+    EXPECT_TRUE(sentences(checked(set, arch)).empty());
+    const Solid pearls = [&](const Vec3& p) {
+        double nearest = 1e9;
+        for (int n = 0; n <= 6; ++n) nearest = std::min(nearest, distance(p, middle(n * M_PI / 6)));
+        return kTube - nearest;
+    };
+    const SectionCheck check = checked(set, pearls);
+    ASSERT_EQ(std::ranges::count_if(check.between, [](const BetweenCheck& b) { return b.is_wrong; }), 6);
+    EXPECT_EQ(check.between.front().missing_share, 1);
+    EXPECT_NEAR(check.between.front().gap_mm, 2 * kTurn * std::sin(M_PI / 12), 1e-6);
+    EXPECT_NEAR(std::hypot(check.between.front().position.x, check.between.front().position.y), kTurn, kTube);
+}
+
+TEST(SectionCheck, TwoBodiesBesideEachOtherAreNotOneTube) {
+    ContourSet set = test::ball_slices({}, kRadius, 4, 4);
+    for (const Contour& contour : test::ball_slices({70, 0, 0}, kRadius, 4, 4).contours) set.contours.push_back(contour);
+    EXPECT_TRUE(sentences(checked(set, either(ball({}, kRadius), ball({70, 0, 0}, kRadius)))).empty());
 }
 
 /// Rings across a helix: their planes cut its other turns, which nobody draws there.

@@ -46,9 +46,21 @@ def contents(package):
 def test_each_part_is_a_package(packages):
     assert {"kontur", "libkontur0.1", "libkontur-dev"} <= set(packages)
     assert "usr/bin/kontur" in contents(packages["kontur"])
-    assert "usr/share/man/man1/kontur-segment.1" in contents(packages["kontur"])
+    assert "usr/share/man/man1/kontur-segment.1.gz" in contents(packages["kontur"])
     assert any(name.endswith("libkontur.so.0.1") for name in contents(packages["libkontur0.1"]))
     assert "usr/include/kontur/kontur.h" in contents(packages["libkontur-dev"])
+
+
+def test_lintian_finds_no_error(packages):
+    if not shutil.which("lintian"):
+        pytest.skip("lintian is not installed")
+    result = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", *packages.values()], capture_output=True, text=True, timeout=300)
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+def test_no_binary_has_a_search_path(tree):
+    for binary in [tree / "usr/bin/kontur", *tree.rglob("*.so*")]:
+        assert "RUNPATH" not in run("readelf", "-d", binary), binary
 
 
 def test_3d_slicers_modules_lie_where_its_page_says(packages):

@@ -16,7 +16,7 @@ using namespace test;
 ImplicitFunction fitted_to(const ContourSet& contours) {
     const Drawing drawing = read_drawing(contours, FillRule::even_odd);
     const StageOptions stages = stage_options({}, drawing.diameter_mm());
-    return fit(prepare(drawing, stages), stages.fit).function;
+    return fit(prepare(drawing, stages.prepare), stages.fit).function;
 }
 
 TEST(PointsOfSurface, LieBesideItByAFewPercentOfTheSpacingAndOnItAfterOneStep) {

@@ -250,6 +250,16 @@ TEST(Editor, TheWorstContourIsNumberedAsTheContoursCame) {
     EXPECT_EQ(Editor().finish(set).residual.worst_contour, set.contours.size() - 1);
 }
 
+TEST(Editor, AFinishedSurfaceIsHeldAgainstItsDrawing) {
+    ContourSet set = test::ball_contours();
+    set.contours.insert(set.contours.begin() + 1, set.contours[0]);  // a repetition, which is left out
+    EXPECT_TRUE(Editor().preview(set).section_check.planes.empty());
+    const SectionCheck check = Editor().finish(set).section_check;
+    EXPECT_TRUE(sentences(check).empty());
+    ASSERT_EQ(check.planes.size(), set.contours.size() - 1);
+    EXPECT_EQ(check.planes.back().contour, set.contours.size() - 1);
+}
+
 TEST(Editor, TheSidesOfOpenLinesAreNumberedAsTheContoursCame) {
     const Body ball = test::ball_solid({0, 0, 0}, 20);
     const std::vector<Plane> planes{make_plane({0, 0, 0}, {0, 0, 1}), make_plane({0, 0, 8}, {0, 0, 1}),

@@ -66,7 +66,7 @@ Drawn of_phantom(const std::string& name, std::int64_t step) {
 
 /// Circles of a ball of 20 mm in parallel planes, with a click inside and one outside.
 Drawing ball(const std::vector<double>& heights) {
-    Drawing drawing{{}, test::grid_about({}, {40, 40, 40}, 1.25)};
+    Drawing drawing{{}, test::grid_about({}, {56, 56, 56}, 1.25)};  // no end is near the border
     for (const double z : heights)
         drawing.contours.contours.push_back(test::circle(make_plane({0, 0, z}, {0, 0, 1}), std::sqrt(400 - z * z), 60));
     drawing.contours.interior = {{0, 0, 1}};

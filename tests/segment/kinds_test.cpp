@@ -131,6 +131,15 @@ TEST(Kinds, SinglePointsThatContradictTheContoursAreReported) {
     EXPECT_GT(dice(result, body), 0.95) << "the drawn contours keep the surface";
 }
 
+TEST(Kinds, ASinglePointFartherAwayThanAllLinesAreWideIsNamed) {
+    const Body body = test::ellipsoid({}, {28, 20, 16});
+    ContourSet drawn = draw_sections(body, test::axial_planes({-6, 0, 6}), 300);
+    drawn.surface = {{{0, 0, 16}, {}}, {{0, 0, 300}, {}}};
+    EXPECT_TRUE(warns(segment(drawn, grid_over(body, 2)).report, "surface point 2 is 29"));
+    drawn.surface[1].position.z = 40;
+    EXPECT_FALSE(warns(segment(drawn, grid_over(body, 2)).report, "from every line"));
+}
+
 TEST(Kinds, HolesInNothingAreReportedAndHolesAloneRefused) {
     const Body body = test::ellipsoid({}, {28, 20, 16});
     ContourSet drawn = draw_sections(body, planes(-10, 10, 5), 100);
@@ -301,6 +310,24 @@ TEST(Kinds, ShapesInOnePlaneBecomePlausibleBodies) {
     }
 }
 
+/// What is asked of contours takes as long as of those with what they say: the values of f that are computed tell.
+TEST(Kinds, AHundredTimesTooManyPointsCostNoMoreValues) {
+    const Body ball = test::ball_solid({}, 20);
+    const auto drawn_with = [](int points) {
+        ContourSet set;
+        for (double z = -18; z <= 18; z += 3)
+            set.contours.push_back(test::circle(make_plane({0, 0, z}, {0, 0, 1}), std::sqrt(400 - z * z), points));
+        return set;
+    };
+    const Segmentation vast = segment(drawn_with(20000), grid_over(ball, 1)),
+                       plain = segment(drawn_with(200), grid_over(ball, 1));
+    EXPECT_EQ(vast.report.points, 13u * 20000);
+    EXPECT_LT(5 * vast.report.evaluations, 6 * plain.report.evaluations);
+    EXPECT_LT(5 * vast.report.constraints, 6 * plain.report.constraints);
+    EXPECT_GT(test::dice(vast.mask.values, plain.mask.values), 0.997);
+    EXPECT_TRUE(warns(vast.report, "13 contours with very many points were thinned"));
+}
+
 TEST(Kinds, TinyAndHugeContoursSpikesAndRepeatedPoints) {
     const Body ball = test::ball_solid({}, 20);
     const auto heights = {-12.0, 0.0, 12.0};
@@ -314,7 +341,7 @@ TEST(Kinds, TinyAndHugeContoursSpikesAndRepeatedPoints) {
     EXPECT_GT(test::dice(thinned.mask.values, segment(plain, grid_over(ball, 2)).mask.values), 0.995);
     EXPECT_TRUE(warns(thinned.report, "3 contours with very many points were thinned"));
     EXPECT_EQ(thinned.report.points, 300000u);
-    EXPECT_LT(thinned.report.residual.max_mm, 0.05) << "measured at all of them";
+    EXPECT_LT(thinned.report.residual.max_mm, 0.05) << "measured at those that were kept";
 
     ContourSet dirty = plain;
     std::vector<Vec3>& points = dirty.contours[1].points;

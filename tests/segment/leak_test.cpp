@@ -99,7 +99,7 @@ protected:
 // Behind a gap in which it is negative, f may rise again in cones that widen with the distance.
 TEST_P(StackTest, NothingIsInsideBeyondTheEnds) {
     const auto& [radius, heights, ball] = GetParam();
-    const ImplicitFunction f = segment(contours(), grid_around(bounding_box(contours()), {1, 1, 1}, 0)).function;
+    const ImplicitFunction f = segment(contours(), grid_around(bounding_box(contours()), {1, 1, 1}, 3 * radius)).function;
     const double spacing = heights[1] - heights[0], middle = (heights.front() + heights.back()) / 2, step = radius / 5;
     for (double x = -2 * radius; x <= 2 * radius; x += step)
         for (double y = -2 * radius; y <= 2 * radius; y += step)

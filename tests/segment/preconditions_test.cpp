@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,21 @@ void expect_refused(const std::vector<Row>& rows) {
     }
 }
 
+template <class Field>
+struct Given {
+    using Type = Field;
+};
+template <class Field>
+struct Given<std::optional<Field>> {
+    using Type = Field;
+};
+
 /// One row for each value that a field must not have.
-template <class Options, class Value>
-void add(std::vector<Row>& rows, const std::string& what, Value Options::*field, const std::vector<Value>& values,
-         const std::function<void(const Options&)>& call, const std::string& part) {
-    for (const Value value : values) {
+template <class Options, class Field>
+void add(std::vector<Row>& rows, const std::string& what, Field Options::*field,
+         const std::vector<typename Given<Field>::Type>& values, const std::function<void(const Options&)>& call,
+         const std::string& part) {
+    for (const auto value : values) {
         Options options;
         options.*field = value;
         rows.push_back({what + " = " + std::to_string(value), [=] { call(options); }, part});
@@ -115,7 +126,7 @@ TEST(Preconditions, OfPreparingContours) {
 
     const std::function<void(const ReconcileOptions&)> reconciling = [](const ReconcileOptions& o) {
         std::vector<BoundaryPoint> points = prepared().points;
-        reconcile(points, {}, o);
+        reconcile(points, {}, 40, o);
     };
     add<ReconcileOptions>(rows, "offset", &ReconcileOptions::offset_mm, kNotAbove0, reconciling, "offset");
     add<ReconcileOptions>(rows, "strength", &ReconcileOptions::strength, kBelow0, reconciling, "strength");
@@ -187,10 +198,10 @@ TEST(Preconditions, OfFitting) {
     }
     for (const double value : kNotAbove0) {
         FitOptions options;
-        options.place.normal_offset_mm = value;
+        options.normal_offset_mm = value;
         rows.push_back({"offset", [=] { call(options); }, "normal offset"});
     }
-    rows.push_back({"nothing to fit", [] { fit({}, {}); }, "there are 0 constraints"});
+    rows.push_back({"nothing to fit", [] { fit({}, {}); }, "there are 0 points"});
 
     const ConstraintSet constraints =
         place_constraints(prepared().points, std::vector<double>(prepared().points.size(), 1.0), {}).constraints;

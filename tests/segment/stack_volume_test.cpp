@@ -79,5 +79,12 @@ INSTANTIATE_TEST_SUITE_P(Stacks, StackVolume,
                              return name;
                          });
 
+TEST(StackSections, AreWholeHoweverLowTheStack) {
+    // The ends press on wide sections; bounds inside of the lines hold them.
+    const ContourSet set = ring("low disc", 40, 40, 6).set;
+    const Segmentation made = segment(set, grid_around(bounding_box(set), {1, 1, 0.75}, 15));
+    EXPECT_LT(made.report.section_check.largest_wrong_share(), 0.01);
+}
+
 }  // namespace
 }  // namespace kontur

@@ -58,5 +58,27 @@ INSTANTIATE_TEST_SUITE_P(Ways, StoredOtherwise,
                                              [](std::vector<Contour>& contours) { std::ranges::reverse(contours); }}),
                          [](const auto& info) { return info.param.name; });
 
+/// More points on the edges of the same polygons.
+TEST(SplitEdges, InSixteenPiecesMakeTheSameSurface) {
+    for (const char* name : {"metastasis_parallel7", "kidney_radial6_hand", "liver_oblique10_hand"}) {
+        SCOPED_TRACE(name);
+        const PhantomCase drawn = phantom_case(name);
+        const Grid grid = test::coarse(drawn.grid, 4);
+        ContourSet split = drawn.contours;
+        for (Contour& contour : split.contours) {
+            std::vector<Vec3> points;
+            for (std::size_t i = 0; i < contour.points.size(); ++i)
+                for (int piece = 0; piece < 16; ++piece)
+                    points.push_back(contour.points[i] + piece / 16.0 * (contour.points[(i + 1) % contour.points.size()] -
+                                                                         contour.points[i]));
+            contour.points = std::move(points);
+        }
+        const Segmentation first = segment(drawn.contours, grid), second = segment(split, grid);
+        EXPECT_EQ(first.mask.values, second.mask.values);
+        for (const Vec3& place : first.samples.points)
+            ASSERT_NEAR(first.function.value(place), second.function.value(place), 0.1);
+    }
+}
+
 }  // namespace
 }  // namespace kontur

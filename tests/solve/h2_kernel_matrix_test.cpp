@@ -191,7 +191,7 @@ TEST(PartitionPairs, EveryPairOfPointsIsInOneBlock) {
     std::mt19937 random = test::random_of_this_test();
     const std::size_t n = 400;
     const ClusterTree tree(PointArrays(cloud(n, random)), 8, {.threads = 1});
-    const Partition partition = partition_pairs(tree, 1.5);
+    const PairPartition partition = partition_pairs(tree, 1.5);
     EXPECT_GT(partition.far.size(), 0u);
     std::vector<int> seen(n * n);
     for (const auto* pairs : {&partition.far, &partition.near})

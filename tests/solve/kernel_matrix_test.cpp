@@ -34,7 +34,7 @@ TEST(DirectKernelMatrix, MultipliesAsTheFullSumDoes) {
         for (const std::size_t count : {1, 2, 31, 32, 33, 64, 65, 1000, 1500}) {
             const Problem p = random_problem(count, random);
             std::vector<double> expected(count), product(count, -1.0);
-            sum_kernel(kernel, p.points, p.weights, p.points, expected, {.threads = 1});
+            sum_kernel({kernel, p.points, p.weights}, p.points, expected, {.threads = 1});
             DirectKernelMatrix(kernel, p.points, {.threads = 2}).multiply(p.weights, product);
             for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(product[i], expected[i], 1e-10) << count << " points, " << i;
         }
@@ -47,7 +47,7 @@ TEST(DirectKernelMatrix, MultipliesWeightsThatAreMostlyZeroAsTheFullSumDoes) {
         std::fill(p.weights.begin(), p.weights.end() - static_cast<std::ptrdiff_t>(with_weight), 0.0);
         std::shuffle(p.weights.begin(), p.weights.end(), random);
         std::vector<double> expected(1000), product(1000, -1.0);
-        sum_kernel(Kernel::screened, p.points, p.weights, p.points, expected, {.threads = 1});
+        sum_kernel({Kernel::screened, p.points, p.weights}, p.points, expected, {.threads = 1});
         DirectKernelMatrix(Kernel::screened, p.points, {.threads = 2}).multiply(p.weights, product);
         for (std::size_t i = 0; i < 1000; ++i) EXPECT_NEAR(product[i], expected[i], 1e-10) << with_weight << ", " << i;
     }

@@ -74,6 +74,27 @@ TEST(SmallCholesky, SolvesAndInverts) {
         }
 }
 
+TEST(SmallCholesky, ForwardSolvesManySidesAtOnce) {
+    std::mt19937 random = test::random_of_this_test();
+    std::normal_distribution<double> entry;
+    for (const int n : {1, 3, 4, 17, 70})
+        for (const int first : {0, 4, 16}) {
+            if (first >= n) continue;
+            const int lead = padded_rows(n);
+            std::vector<double> l = padded(random_definite(n, random), n), x(static_cast<std::size_t>(n * kForwardSides));
+            ASSERT_TRUE(small_cholesky(l.data(), n));
+            for (int at = first * kForwardSides; at < n * kForwardSides; ++at) x[at] = entry(random);
+            const std::vector<double> right = x;
+            small_cholesky_forward(l.data(), n, first, x.data());
+            for (int i = 0; i < n; ++i)
+                for (int side = 0; side < kForwardSides; ++side) {
+                    double product = 0;
+                    for (int k = 0; k <= i; ++k) product += l[i + k * lead] * x[k * kForwardSides + side];
+                    EXPECT_NEAR(product, right[i * kForwardSides + side], 1e-10) << n << " " << first;
+                }
+        }
+}
+
 TEST(SmallCholesky, NoticesAMatrixThatIsNotDefinite) {
     std::mt19937 random = test::random_of_this_test();
     for (const int bad : {0, 5, 11, 19}) {

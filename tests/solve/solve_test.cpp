@@ -67,7 +67,8 @@ TEST(Solve, EverySolverInterpolatesWithEveryKernel) {
                                      random_constraints(300, random), crossing_contours(60)})
         for (const Kernel kernel : kKernels)
             for (const Solver solver : kSolvers) {
-                const Solution solution = solve(set, {.kernel = kernel, .solver = solver});
+                const Solution solution =
+                    solve(set, {.kernel = kernel, .solver = solver, .smoothing = 0, .tolerance_mm = 1e-3});
                 const double limit = solver == Solver::iterative ? 1.1e-3 : 1e-6,
                              error = largest_error(solution.function, set);
                 EXPECT_LT(error, limit) << name(solver) << " " << name(kernel) << " " << set.size();
@@ -119,8 +120,12 @@ TEST(Solve, SmoothingTradesTheResidualForSmallerWeights) {
     const ConstraintSet set = crossing_contours(40);
     for (const Kernel kernel : kKernels)
         for (const Solver solver : kSolvers) {
-            const ImplicitFunction exact = solve(set, {.kernel = kernel, .solver = solver}).function;
-            const ImplicitFunction smooth = solve(set, {.kernel = kernel, .solver = solver, .smoothing = 1e-3}).function;
+            const auto smoothed = [&](double smoothing) {
+                return solve(set, {.kernel = kernel, .solver = solver, .smoothing = smoothing, .tolerance_mm = 1e-3})
+                    .function;
+            };
+            const ImplicitFunction exact = smoothed(0);
+            const ImplicitFunction smooth = smoothed(1e-3);
             for (std::size_t i = 0; i < set.size(); ++i)
                 ASSERT_NEAR(smooth.value(set.centers[i]) + kernel_sign(kernel) * 1e-3 * smooth.weights()[i], set.values[i],
                             1.1e-3);
@@ -204,7 +209,7 @@ TEST(Solve, TheBallOfWhatWasDrawnSetsTheUnit) {
     const ConstraintSet set = crossing_contours(40);
     const Ball3 ball{{1, 2, 3}, 50};
     const ImplicitFunction function =
-        solve(set, {.kernel = Kernel::screened, .ball = ball, .solver = Solver::cholesky}).function;
+        solve(set, {.kernel = Kernel::screened, .ball = ball, .solver = Solver::cholesky, .smoothing = 0}).function;
     EXPECT_EQ(function.frame().center, ball.center);
     EXPECT_EQ(function.frame().scale, ball.radius);
     EXPECT_LT(largest_error(function, set), 1e-6);
@@ -259,7 +264,8 @@ TEST(Solve, TheScreenedKernelNeedsOneConstraintAndNoThirdDimension) {
     for (Vec3& c : flat.centers) c.z = 0;
     for (const ConstraintSet& set : {flat, random_constraints(1, random), random_constraints(2, random)})
         for (const Solver solver : kSolvers)
-            EXPECT_LT(largest_error(solve(set, {.kernel = Kernel::screened, .solver = solver}).function, set), 1.1e-3)
+            EXPECT_LT(largest_error(solve(set, {.solver = solver, .smoothing = 0, .tolerance_mm = 1e-3}).function, set),
+                      1.1e-3)
                 << name(solver) << " " << set.size();
 }
 

@@ -32,7 +32,7 @@ inline ImplicitFunction function_through(const TriangleMesh& surface, double off
             set.centers.push_back(surface.points[i] + offset * surface.normals[i]);
             set.values.push_back(-offset);
         }
-    return solve(set, {.solver = Solver::cholesky}).function;
+    return solve(set, {.solver = Solver::cholesky, .smoothing = 0}).function;
 }
 
 /// A function with many sheets and bubbles in the box [0, extent]^3.
@@ -43,7 +43,7 @@ inline ImplicitFunction rough_function(double extent, std::mt19937& random) {
         set.centers.push_back({coordinate(random), coordinate(random), coordinate(random)});
         set.values.push_back(value(random));
     }
-    return solve(set, {.kernel = Kernel::biharmonic, .solver = Solver::cholesky}).function;
+    return solve(set, {.kernel = Kernel::biharmonic, .solver = Solver::cholesky, .smoothing = 0}).function;
 }
 
 /// A grid of cubic voxels about a point.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "support/lobed_body.h"
+#include "support/mask_of.h"
 
 namespace kontur::test {
 
@@ -27,11 +28,7 @@ inline std::vector<Plane> planes_of_horns() {
 
 /// Cut from voxels of 1 mm.
 inline ContourSet cut(const std::vector<Plane>& planes, const std::function<double(const Vec3&)>& depth) {
-    Mask mask{cube_grid(1), {}};
-    const Index3& size = mask.grid.size;
-    for (std::int64_t k = 0; k < size.k; ++k)
-        for (std::int64_t j = 0; j < size.j; ++j)
-            for (std::int64_t i = 0; i < size.i; ++i) mask.values.push_back(depth(mask.grid.center_mm(i, j, k)) > 0);
+    const Mask mask = mask_of(cube_grid(1), [&](const Vec3& p) { return depth(p) > 0; });
     return trace(mask, planes, {.min_area_mm2 = 2}, {});
 }
 

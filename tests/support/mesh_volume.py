@@ -16,13 +16,30 @@ def read_stl(data):
     return facets["p"].reshape(-1, 3, 3).astype(float), np.repeat(facets["n"][:, None, :], 3, axis=1)
 
 
+PLY_TYPES = {"double": "<f8", "float": "<f4", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4"}
+
+
 def read_ply(data):
+    """Of every face and point all properties that the header names, whatever they are. Without normals those of the triangles."""
     header, body = data.split(b"end_header\n", 1)
-    counts = [int(line.split()[2]) for line in header.splitlines() if line.startswith(b"element")]
-    points = np.frombuffer(body, np.dtype([("p", "<3f8"), ("n", "<3f4")]), counts[0])
-    faces = np.frombuffer(body[points.nbytes :], np.dtype([("count", "u1"), ("i", "<3u4")]))
-    assert len(faces) == counts[1] and (faces["count"] == 3).all()
-    return points["p"][faces["i"]], points["n"][faces["i"]]
+    tables = []
+    for line in header.decode().splitlines():
+        words = line.split()
+        if words[0] == "element":
+            tables.append((int(words[2]), []))
+        elif words[0] == "property" and words[1] == "list":
+            tables[-1][1].extend([("count", PLY_TYPES[words[2]]), (words[4], "3" + PLY_TYPES[words[3]])])
+        elif words[0] == "property":
+            tables[-1][1].append((words[2], PLY_TYPES[words[1]]))
+    (points_count, of_points), (faces_count, of_faces) = tables[:2]
+    points = np.frombuffer(body, np.dtype(of_points), points_count)
+    faces = np.frombuffer(body[points.nbytes :], np.dtype(of_faces), faces_count)
+    assert (faces["count"] == 3).all()
+    corners = next(faces[name] for name, kind in of_faces if kind.startswith("3"))
+    place = np.stack([points[name] for name in "xyz"], 1).astype(float)[corners]
+    if "nx" not in points.dtype.names:
+        return place, np.repeat(np.cross(place[:, 1] - place[:, 0], place[:, 2] - place[:, 0])[:, None], 3, axis=1)
+    return place, np.stack([points[name] for name in ("nx", "ny", "nz")], 1).astype(float)[corners]
 
 
 def read_obj(data):

@@ -30,7 +30,7 @@ TEST(SurfaceUncertainty, IsNotKnownBelowThreePlanes) {
     EXPECT_EQ(two.planes, 2u);
     EXPECT_FALSE(two.is_known);
     EXPECT_EQ(two.half_width_median_mm, 0);
-    EXPECT_EQ(sentence(two), "how sure the surface is, 2 planes do not tell; 3 are needed");
+    EXPECT_EQ(sentence(two), "2 planes do not tell how sure the surface is; 3 are needed");
     EXPECT_TRUE(half_widths_mm(fitted(egg(), planes).evidence).empty());
 
     EXPECT_TRUE(fitted(egg(), three_planes(kCenter)).report.uncertainty.is_known);
@@ -40,7 +40,7 @@ TEST(SurfaceUncertainty, IsNotKnownWhereNoVoxelIsInside) {
     const Grid coarse = grid_around({kCenter - Vec3{40, 40, 40}, kCenter + Vec3{160, 160, 160}}, {200, 200, 200}, 0);
     const SurfaceUncertainty none = fitted(drawn(egg(), three_planes(kCenter)), coarse).report.uncertainty;
     EXPECT_FALSE(none.is_known);
-    EXPECT_EQ(sentence(none), "how sure the surface is cannot be told: on this grid there is none");
+    EXPECT_EQ(sentence(none), "there is no surface on this grid, so how sure it is cannot be told");
 }
 
 TEST(SurfaceUncertainty, PlanesStillToDrawAreCountedAsFarAsThatMeansAnything) {

@@ -15,9 +15,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ["KONTUR_BUILD"])
 
 # Large, for tests of what the suite tests by other means, too.
-OPTIONAL = {"doxygen", "plastimatch"}
+OPTIONAL = {"Orthanc", "curl", "doxygen", "getscu", "lintian", "plastimatch", "storescu"}
 # Where a test asks for the program that a variable names.
-NAMED_BY_VARIABLES = {("command_documentation_test.py", "shell"): ["zsh", "fish"], ("setup_test.py", "name"): []}  # none: every Debian has them
+NAMED_BY_VARIABLES = {
+    ("command_documentation_test.py", "shell"): ["zsh", "fish"],
+    ("setup_test.py", "name"): [],  # every Debian has them
+    ("readers_test.py", "program"): [],  # it asks for each output alone
+}
 PACKAGES = {"dpkg-shlibdeps": "dpkg-dev", "mypy": "mypy"}  # others are called like the package, or python3-NAME
 
 

@@ -131,6 +131,17 @@ TEST(Picture, TakesAnythingDownToNothing) {
     EXPECT_EQ(make_picture({{{1, 1, 1}}, {}, {{0, 0, 0}}}, point, &image, options).width, 320);
 }
 
+TEST(Picture, OfContoursAloneSaysNothingOfASurface) {
+    const ContourSet set = three_circles({}, 10);
+    const PictureOptions with{.width_px = 640, .height_px = 400};
+    PictureOptions without = with;
+    without.has_surface = false;
+    const RgbImage empty = make_picture({}, set, nullptr, with), alone = make_picture({}, set, nullptr, without);
+    EXPECT_NE(alone, empty);
+    EXPECT_EQ(count_color(alone, picture::kSurface), 0) << "nothing in the legend";
+    EXPECT_GT(count_color(alone, picture::kDrawn), 200);
+}
+
 TEST(Picture, RefusesSizesThatNobodyCanReadOrStore) {
     EXPECT_KONTUR_ERROR(make_picture({}, {}, nullptr, {.width_px = 319}), ErrorKind::invalid_input, "319 x 1000");
     EXPECT_KONTUR_ERROR(make_picture({}, {}, nullptr, {.height_px = -1}), ErrorKind::invalid_input, "1600 x -1");

@@ -20,8 +20,8 @@ ContourSet moved(double by_mm, const std::string& name = "Liver") {
     return {name, {circle}, {}, {}};
 }
 
-Sentences doubts_of(const std::vector<ContourSet>& sets, const FrameUid& frame = "", const FrameUid& image_frame = "") {
-    return import_doubts(sets, frame, test::flat_image()->grid, image_frame);
+Sentences doubts_of(const std::vector<ContourSet>& sets, const Source& drawn = {}, const Source& image = {}) {
+    return import_doubts(sets, drawn, test::flat_image()->grid, image);
 }
 
 TEST(ImportDoubts, ThereAreNoneOfWhatLiesInTheImageOrReachesALittleOutOfIt) {
@@ -42,11 +42,20 @@ TEST(ImportDoubts, CountTheStructuresBeyondTheFirstFive) {
 }
 
 TEST(ImportDoubts, AnotherFrameOfReferenceIsOneAndAnUnknownOneIsNot) {
-    EXPECT_EQ(doubts_of({moved(0)}, "1.2.3", "1.2.4"),
-              Sentences{"It was drawn in another frame of reference (1.2.3) than the image's (1.2.4)."});
-    EXPECT_EQ(doubts_of({moved(0)}, "1.2.3", "1.2.3"), Sentences{});
-    EXPECT_EQ(doubts_of({moved(0)}, "1.2.3", ""), Sentences{});
-    EXPECT_EQ(doubts_of({moved(0)}, "", "1.2.3"), Sentences{});
+    EXPECT_EQ(doubts_of({moved(0)}, {"1.2.3"}, {"1.2.4"}),
+              Sentences{"It was drawn on another scan than this one: their frames of reference differ."});
+    EXPECT_EQ(doubts_of({moved(0)}, {"1.2.3"}, {"1.2.3"}), Sentences{});
+    EXPECT_EQ(doubts_of({moved(0)}, {"1.2.3"}, {}), Sentences{});
+    EXPECT_EQ(doubts_of({moved(0)}, {}, {"1.2.3"}), Sentences{});
+}
+
+TEST(ImportDoubts, NamePatientsInPlaceOfNumbers) {
+    EXPECT_EQ(doubts_of({moved(0)}, {"1.2.3", "Doe, Jane (ID 7)"}, {"1.2.4", "Roe, Max (ID 8)"}),
+              Sentences{"It was drawn on an image of Doe, Jane (ID 7), and this image is of Roe, Max (ID 8)."});
+    EXPECT_EQ(
+        doubts_of({moved(0)}, {"1.2.3", "Doe, Jane (ID 7)"}, {"1.2.4", "Doe, Jane (ID 7)"}),
+        Sentences{"It was drawn on another scan of Doe, Jane (ID 7) than this one: their frames of reference differ."});
+    EXPECT_EQ(doubts_of({moved(0)}, {"1.2.3", ""}, {"1.2.3", "Roe, Max (ID 8)"}), Sentences{});
 }
 
 TEST(ImportDoubts, FollowAnImagesOwnAxes) {
@@ -61,8 +70,8 @@ TEST(ImportDoubts, FollowAnImagesOwnAxes) {
         for (Vec3& p : set.contours[0].points) p = test::kPlane.origin + 0.2 * (p - test::kPlane.origin) + by;
         return set;
     };
-    EXPECT_EQ(import_doubts({near_corner(5, 5)}, "", turned, ""), Sentences{});
-    EXPECT_EQ(import_doubts({near_corner(-5, 30)}, "", turned, ""),
+    EXPECT_EQ(import_doubts({near_corner(5, 5)}, {}, turned, {}), Sentences{});
+    EXPECT_EQ(import_doubts({near_corner(-5, 30)}, {}, turned, {}),
               Sentences{"100 % of the points of Liver lie outside of the image."});
 }
 

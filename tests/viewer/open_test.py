@@ -223,7 +223,8 @@ def test_a_surface_is_outdated_before_anybody_is_told_of_an_edit(server):
         kinds = [event["event"] for event in page.events]
         (told,) = [event for event in page.events[: kinds.index("changed")] if event["event"] == "surface" and event["stage"] == "outdated"]
         assert told["revision"] == before["revision"] and "volume_ml" not in told
-        assert all(surface["stage"] in ("outdated", "preview") for surface in server.page().session["surfaces"])
+        for surface in server.page().session["surfaces"]:  # where the machine is busy it may be the new one by now
+            assert surface["stage"] in ("outdated", "preview") or surface["revision"] > before["revision"]
         before = page.wait_for_surface(structure)
 
 
@@ -393,7 +394,7 @@ def test_exports_are_what_the_command_line_makes(server, tmp_path, image):
 
     def export(name):
         status, headers, body = server.request("GET", f"/api/export/{name}?structure={structure}")
-        assert status == 200 and headers["Content-Disposition"] == f'attachment; filename="ball___1{name[name.find("."):]}"'
+        assert status == 200 and headers["Content-Disposition"] == f'attachment; filename="ball_ball_1{name[name.find("."):]}"'
         (tmp_path / name).write_bytes(body)
         return tmp_path / name
 
@@ -481,6 +482,74 @@ def test_imports_of_contours_and_masks(server, tmp_path):
     assert status == 415
     status, _, body = server.request("POST", "/api/import/contours?name=x.json", b"{")
     assert status == 422 and str(tmp_path) not in body.decode()
+
+
+def vertebrae(path, image, values):
+    """A label map on the image's grid: a block for each value, one above the other."""
+    grid = nibabel.load(image)
+    labels = numpy.zeros(grid.shape, "u1")
+    for n, value in enumerate(values):
+        labels[10:20, 10:20, 4 + 8 * n : 10 + 8 * n] = value
+    nibabel.save(nibabel.Nifti1Image(labels, grid.affine), path)
+    return path.read_bytes()
+
+
+def labels_in(server, name="labels.nii.gz"):
+    path = server.folder / name
+    path.write_bytes(server.request("GET", f"/api/export/{name}")[2])
+    return set(numpy.unique(nibabel.load(path).dataobj)) - {0}
+
+
+def test_values_of_a_label_map_stay_with_its_structures(server, tmp_path, image):
+    page = server.page()
+    mask = vertebrae(tmp_path / "v.nii.gz", image, [26, 33])
+    status, _, body = server.request("POST", "/api/import/mask?name=v.nii.gz&planes=5", mask)
+    assert status == 200, body
+    first, second = json.loads(body)["structures"]
+    page.do("ping")
+    assert [page.structures[n]["label_value"] for n in (first, second)] == [26, 33]
+    assert labels_in(server) == {26, 33}
+    page.do("structure.set", id=second, label_value=300)
+    assert labels_in(server) == {26, 300}
+    header = server.request("GET", "/api/export/labels.seg.nrrd")[2]
+    assert b"Segment0_LabelValue:=26\n" in header and b"Segment1_LabelValue:=300\n" in header
+    status, _, body = server.request("POST", "/api/import/mask?name=w.nii.gz&planes=5", mask)
+    (note,) = json.loads(body)["notes"]
+    assert note == "the label value 26 of Label 26 is that of Label 26 here; another one is chosen"
+    header = server.request("GET", "/api/export/labels.seg.nrrd")[2].decode("latin-1")
+    assert re.findall("Segment._LabelValue:=([0-9]+)", header) == ["26", "300", "1", "33"]
+
+
+def test_the_names_of_a_label_map_are_written_into_it_and_read_from_it(server, tmp_path, image):
+    page = server.page()
+    mask = vertebrae(tmp_path / "v.nii.gz", image, [26, 33])
+    (first, second) = json.loads(server.request("POST", "/api/import/mask?name=v.nii.gz&planes=5", mask)[2])["structures"]
+    page.do("structure.set", id=first, name="T8", color="#ff0000")
+    exported = server.request("GET", "/api/export/labels.nii.gz")[2]
+    again = json.loads(server.request("POST", "/api/import/mask?name=again.nii.gz&planes=5", exported)[2])["structures"]
+    page.do("ping")
+    assert [page.structures[n]["name"] for n in again] == ["T8", "Label 33"]
+    assert page.structures[again[0]]["color"] == "#ff0000"
+
+
+def test_a_preview_says_what_the_planes_keep_of_a_mask_and_imports_nothing(server, tmp_path):
+    page = server.page()
+    draw_ball(page, the_structure(page))
+    mask = server.request("GET", f"/api/export/mask.nii.gz?structure={the_structure(page)}")[2]
+    before = set(page.structures)
+    kept = []
+    for planes, axes in ((1, "axial"), (9, "axial,sagittal,coronal")):
+        status, _, body = server.request("POST", f"/api/import/mask?name=m.nii.gz&planes={planes}&axes={axes}&preview=1", mask)
+        assert status == 200, body
+        reply = json.loads(body)
+        assert reply["structures"] == [] and reply["doubts"] == []
+        (ball,) = reply["traced"]
+        assert ball["name"] == "m" and ball["volume_ml"] == pytest.approx(4 / 3 * numpy.pi * RADIUS**3 / 1000, rel=0.05)
+        kept.append(ball["dice"])
+        assert ball["traced_ml"] == pytest.approx(ball["volume_ml"], rel=0.6)
+    assert kept[0] < kept[1] and kept[1] > 0.97
+    page.do("ping")
+    assert set(page.structures) == before and page.history["undo"] == "Draw a contour"
 
 
 def test_an_import_takes_points_ends_and_weights_along(server):

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -94,6 +95,22 @@ TEST(Places, RefuseWhatLiesOutside) {
     EXPECT_EQ(places.resolved(place + "/a/../scan.NII.GZ"), disk.root / "place/scan.NII.GZ");
     EXPECT_EQ(places.resolved(place + "/inner/deep"), disk.root / "place/a/deep");
     EXPECT_KONTUR_ERROR(Places().resolved(place), ErrorKind::invalid_input, "lies outside");
+}
+
+TEST(Places, TheTildeIsTheHomeFolderAndANulIsRefused) {
+    const Disk disk;
+    const std::string place = (disk.root / "place").string();
+    const char* known = std::getenv("HOME");
+    const std::string home = known ? known : "";
+    setenv("HOME", place.c_str(), 1);
+    EXPECT_EQ(disk.places().resolved("~"), disk.root / "place");
+    EXPECT_EQ(disk.places().resolved("~/a/deep"), disk.root / "place/a/deep");
+    EXPECT_KONTUR_ERROR(disk.places().resolved("~other"), ErrorKind::invalid_input, "lies outside");
+    if (known) setenv("HOME", home.c_str(), 1);
+    else unsetenv("HOME");
+    EXPECT_KONTUR_ERROR(disk.places().resolved(place + std::string("/a\0.nii", 7)), ErrorKind::invalid_input, "NUL");
+    EXPECT_THROW(disk.places().resolved(place + "/none.nii"), PathMissing);
+    EXPECT_KONTUR_ERROR(disk.places().resolved("/etc/passwd"), ErrorKind::invalid_input, "kontur open /etc/passwd");
 }
 
 TEST(Places, AllOfTheDiskIsAPlaceLikeOthers) {

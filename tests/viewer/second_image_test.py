@@ -140,7 +140,7 @@ def test_what_does_not_fit_is_refused_in_one_sentence(tmp_path, home):
         for path, status, part in [
             (home / "far.nii.gz", 400, "far.nii.gz and ct.nii.gz do not meet: they lie "),
             (home / "broken.nii", 422, "broken.nii"),
-            (home / "none.nii", 500, "none.nii"),
+            (home / "none.nii", 404, "none.nii"),
             (tmp_path / "outside" / "pet.nii.gz", 400, "lies outside of the folders that this page may open"),
         ]:
             told, reply = add(server, path)

@@ -99,15 +99,15 @@ json circle_to_add(Id structure, const char* origin) {
 TEST(Session, TheHistoryNamesWhatAContourWasMadeOf) {
     SessionHere here;
     const Id id = here.session.add_structures("Import", {circles(1, 20)}).front();
-    for (const auto& [origin, label] :
-         {std::pair("drawn", "Draw a contour"), std::pair("pulled", "Pull the outline"),
-          std::pair("adopted", "Keep the outline"), std::pair("proposed", "Accept the proposal")}) {
+    for (const auto& [origin, label] : {std::pair("drawn", "Draw a contour"), std::pair("pulled", "Pull the outline"),
+                                        std::pair("pushed", "Push the outline"), std::pair("adopted", "Keep the outline"),
+                                        std::pair("proposed", "Accept the proposal")}) {
         EXPECT_TRUE(called(here.session, circle_to_add(id, origin)).contains("result")) << origin;
         EXPECT_EQ(called(here.session, {{"call", "undo"}})["result"]["label"], label);
     }
     const json refusal = called(here.session, circle_to_add(id, "stolen"));
     EXPECT_EQ(refusal["error"]["kind"], "invalid_input");
-    EXPECT_EQ(refusal["error"]["message"], R"('origin' is "stolen"; drawn, pulled, adopted or proposed is needed)");
+    EXPECT_EQ(refusal["error"]["message"], R"('origin' is "stolen"; drawn, pulled, pushed, adopted or proposed is needed)");
 }
 
 json arc_to_add(Id structure) {

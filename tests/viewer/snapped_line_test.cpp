@@ -56,7 +56,7 @@ double largest_error(const Image& image) {
     std::vector<Vec3> expected = drawn;
     for (Vec3& p : expected) p.z = 24;
     double largest = 0;
-    for (const Vec3& p : snapped_line(expected, there, drawn, at_height(20), image)) {
+    for (const Vec3& p : snapped_line({expected, there}, {drawn, at_height(20)}, image)) {
         EXPECT_NEAR(p.z, 24, 1e-9);
         largest = std::max(largest, std::abs(distance(p, centre_at(24)) - kRadius));
     }
@@ -73,7 +73,7 @@ TEST(SnappedLine, GoesToTheBorderThatWasDrawn) {
 TEST(SnappedLine, StaysWhereTheImageSaysNothing) {
     EXPECT_NEAR(largest_error(rod(0, 0, 0)), 2.4, 0.01) << "as it was expected: 4 mm on, by 0.6 each";
     const std::vector<Vec3> tiny{{20, 20, 24}, {21, 20, 24}, {20, 21, 24}};
-    EXPECT_EQ(snapped_line(tiny, at_height(24), circle_around(centre_at(20)), at_height(20), rod(100, 100, 0)), tiny);
+    EXPECT_EQ(snapped_line({tiny, at_height(24)}, {circle_around(centre_at(20)), at_height(20)}, rod(100, 100, 0)), tiny);
 }
 
 }  // namespace

@@ -111,6 +111,22 @@ TEST(Surfaces, ContoursThatContradictEachOtherHaveOneBetweenThemAndAreNamed) {
     EXPECT_FALSE(surfaces.all().at(1)->conflicts.empty());
 }
 
+TEST(Surfaces, FaultsNameTheContoursByTheirIds) {
+    SectionCheck check;
+    check.between = {{1, 0, 0.4, 20, {1, 2, 3}, true}, {0, 1, 0.5, 20, {1, 2, 4}, true}, {1, 2, 0.1, 20, {}, false}};
+    check.beyond = {{2, 9, 3, false, {4, 5, 6}, true}};
+    const std::vector<SurfaceFault> found = surface_faults(check, {100, 50, 7});
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].kind, SectionFaultKind::between);
+    EXPECT_EQ(found[0].contours, (std::vector<Id>{50, 100}));
+    EXPECT_EQ(found[0].at, (Vec3{1, 2, 3}));
+    EXPECT_EQ(found[1].kind, SectionFaultKind::beyond);
+    EXPECT_EQ(found[1].contours, std::vector<Id>{7});
+    EXPECT_EQ(found[1].length_mm, 9);
+    check.beyond.resize(30, check.beyond.front());
+    EXPECT_LE(surface_faults(check, {100, 50, 7}).size(), 11u);
+}
+
 TEST(Surfaces, WhereThereIsNoneTheContradictionsAreNamedAllTheSame) {
     SurfaceTask task = two_circles(20, 2);
     task.smoothing = 1e4;

@@ -32,7 +32,7 @@ def slice_values(server, **more):
 
 def test_other_times_of_a_file_are_seen_while_one_is_drawn_on(tmp_path):
     write_beating(tmp_path / "beating.nii.gz")
-    with running(tmp_path, tmp_path / "beating.nii.gz", "--frame", "2") as server:
+    with running(tmp_path, tmp_path / "beating.nii.gz", "--frame", "3") as server:
         page = Page(server)
         image = page.session["image"]
         assert (image["times"], image["time"]) == (4, 2)
@@ -49,7 +49,7 @@ def test_a_second_image_of_as_many_volumes_moves_in_time_with_the_first(tmp_path
     home.mkdir()
     for name, frames in (("first", 4), ("second", 4), ("other", 3)):
         write_beating(home / f"{name}.nii.gz", frames)
-    with running(tmp_path, home / "first.nii.gz", "--frame", "2", HOME=str(home)) as server:
+    with running(tmp_path, home / "first.nii.gz", "--frame", "3", HOME=str(home)) as server:
         page = Page(server)
 
         def both(**more):
@@ -66,7 +66,7 @@ def test_a_second_image_of_as_many_volumes_moves_in_time_with_the_first(tmp_path
 
 def test_a_file_of_one_volume_has_one_time(tmp_path):
     write_beating(tmp_path / "still.nii.gz", frames=1)
-    for words in ([], ["--frame", "0"]):
+    for words in ([], ["--frame", "1"]):
         with running(tmp_path, tmp_path / "still.nii.gz", *words) as server:
             image = Page(server).session["image"]
             assert (image["times"], image["time"]) == (1, 0)

@@ -13,15 +13,15 @@ namespace {
 constexpr double kSame = 0.15;  // mm: redrawn stretches are thinned by up to 0.1
 constexpr std::size_t kStays = std::numeric_limits<std::size_t>::max();
 
-struct Place {
+struct BorderPoint {
     std::size_t edge = 0;  ///< from this point of a closed line to the next
     double along = 0;      ///< from 0 to 1
     Vec3 at;
     double distance = std::numeric_limits<double>::infinity();
 };
 
-Place nearest_on(const std::vector<Vec3>& line, bool is_closed, const Vec3& p) {
-    Place best;
+BorderPoint nearest_on(const std::vector<Vec3>& line, bool is_closed, const Vec3& p) {
+    BorderPoint best;
     const std::size_t edges = is_closed ? line.size() : line.size() - 1;
     for (std::size_t n = 0; n < edges; ++n) {
         const Vec3 &a = line[n], along = line[(n + 1) % line.size()] - a;
@@ -71,7 +71,7 @@ double turning(const DrawnContour& contour) {
 }
 
 /// Of a closed line from one place of it on to another.
-std::vector<Vec3> stretch(const std::vector<Vec3>& line, const Place& from, const Place& to) {
+std::vector<Vec3> stretch(const std::vector<Vec3>& line, const BorderPoint& from, const BorderPoint& to) {
     std::vector<Vec3> part{from.at};
     const bool wraps = to.edge < from.edge || (to.edge == from.edge && to.along <= from.along);
     const std::size_t count = line.size(), edges = (to.edge + (wraps ? count : 0)) - from.edge;
@@ -88,13 +88,13 @@ LineChange::LineChange(const DrawnContour& before, const DrawnContour& after)
     if (turning(before) * turning(after) * dot(before.plane.normal, after.plane.normal) < 0)
         std::reverse(line.begin(), line.end());
     const std::size_t count = before_.size();
-    std::vector<Place> places;
+    std::vector<BorderPoint> places;
     for (const Vec3& p : before_) places.push_back(nearest_on(line, true, p));
     const auto stays = [&](std::size_t n) { return places[n % count].distance < kSame; };
     std::size_t first = 0;
     while (first < count && !stays(first)) ++first;
     if (first == count) {  // nothing stays
-        const Place start = nearest_on(line, true, before_.front());
+        const BorderPoint start = nearest_on(line, true, before_.front());
         Part whole{before_, stretch(line, start, start)};
         whole.before.push_back(before_.front());
         changed_ = bounding_box(before_);
@@ -117,11 +117,11 @@ LineChange::LineChange(const DrawnContour& before, const DrawnContour& after)
 
 std::optional<Vec3> LineChange::carried(const Vec3& p, double near_mm) const {
     if (!changed_.padded(2 * near_mm).contains(p)) return std::nullopt;
-    const Place place = nearest_on(before_, true, p);
+    const BorderPoint place = nearest_on(before_, true, p);
     const double weight = std::clamp(2 - place.distance / near_mm, 0.0, 1.0);
     if (part_of_[place.edge] == kStays || weight == 0) return std::nullopt;
     const Part& part = parts_[part_of_[place.edge]];
-    const Place own = nearest_on(part.before, false, p);
+    const BorderPoint own = nearest_on(part.before, false, p);
     const std::vector<Vec3> up_to(part.before.begin(), part.before.begin() + static_cast<std::ptrdiff_t>(own.edge) + 1);
     const double share = (length_of(up_to) + distance(up_to.back(), own.at)) / std::max(length_of(part.before), 1e-9);
     return p + weight * (place_at(part.after, share * length_of(part.after)) - own.at);

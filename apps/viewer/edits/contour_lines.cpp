@@ -14,11 +14,8 @@ DrawnContour redrawn(const DrawnContour& contour, const std::vector<SketchPoint>
     DrawnContour result = draw_contour(sketch, contour.plane, edges, options);
     result.id = contour.id;
     result.structure = contour.structure;
-    result.hole = contour.hole;
     result.visible = contour.visible;
-    result.inside = contour.inside;
-    result.end = contour.end;
-    result.weight = contour.weight;
+    copy_marks(contour, result);
     return result;
 }
 

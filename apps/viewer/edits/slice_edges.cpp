@@ -12,11 +12,6 @@ constexpr int kMiddlePixels = 192;
 constexpr std::size_t kMostSlices = 4;
 constexpr std::size_t kMostWires = 4;  ///< seeds kept of one slice
 
-double smallest_spacing_mm(const Grid& grid) {
-    const Vec3 s = grid.spacing_mm();
-    return std::min({s.x, s.y, s.z});
-}
-
 bool is_same(const Plane& a, const Plane& b) { return a.u == b.u && a.v == b.v && std::abs(a.distance_to(b.origin)) < 1e-6; }
 
 }  // namespace
@@ -25,7 +20,7 @@ struct SliceEdges::Slice {
     Slice(int its_number, const Image& image, const Plane& its_plane, const Vec3& around)
         : number(its_number),
           plane(its_plane),
-          raster(centered_reslice(its_plane, kSidePixels, kSidePixels, smallest_spacing_mm(image.grid))) {
+          raster(centered_reslice(its_plane, kSidePixels, kSidePixels, smallest(image.grid.spacing_mm()))) {
         const double pixel_mm = raster.pixel_mm;
         // The lattice stays the same whatever point of the plane comes first: its nodes are multiples of a pixel from the
         // projection of the frame's origin.

@@ -17,15 +17,10 @@ constexpr int kMostPoints = 300, kFewestPoints = 24;
 constexpr double kStepPixels = 0.5;
 constexpr int kMostStepsOn = 3;  ///< by which the movement may change from one point to the next
 
-double smallest_spacing_mm(const Grid& grid) {
-    const Vec3 s = grid.spacing_mm();
-    return std::min({s.x, s.y, s.z});
-}
-
 Point2 operator-(const Point2& a, const Point2& b) { return {a[0] - b[0], a[1] - b[1]}; }
 
 /// A place on a closed line, with the direction out of what it encloses.
-struct Place {
+struct EdgePoint {
     Point2 at, out;
 };
 
@@ -37,13 +32,13 @@ double signed_area(const Polygon2& line) {
 }
 
 /// `count` places, equally far from each other along the line, their directions those of the line over some steps.
-std::vector<Place> places_on(const Polygon2& line, std::size_t count) {
+std::vector<EdgePoint> places_on(const Polygon2& line, std::size_t count) {
     std::vector<double> until{0};
     for (std::size_t i = 0; i < line.size(); ++i) {
         const Point2 edge = line[(i + 1) % line.size()] - line[i];
         until.push_back(until.back() + std::hypot(edge[0], edge[1]));
     }
-    std::vector<Place> places(count);
+    std::vector<EdgePoint> places(count);
     std::size_t edge = 0;
     for (std::size_t n = 0; n < count; ++n) {
         const double along = until.back() * static_cast<double>(n) / static_cast<double>(count);
@@ -97,7 +92,7 @@ public:
     }
 
     /// Values along a place's direction, from `first` to `last` steps out of it.
-    std::vector<double> across(const Place& place, int first, int last, double step_mm) const {
+    std::vector<double> across(const EdgePoint& place, int first, int last, double step_mm) const {
         std::vector<double> values;
         for (int n = first; n <= last; ++n)
             values.push_back(at(place.at[0] + n * step_mm * place.out[0], place.at[1] + n * step_mm * place.out[1]));
@@ -171,14 +166,15 @@ Polygon2 on(const Plane& plane, const std::vector<Vec3>& points) {
 
 }  // namespace
 
-std::vector<Vec3> snapped_line(const std::vector<Vec3>& line, const Plane& plane, const std::vector<Vec3>& drawn,
-                               const Plane& drawn_plane, const Image& image, const SnapOptions& options) {
-    const double pixel_mm = smallest_spacing_mm(image.grid), step_mm = kStepPixels * pixel_mm;
-    const double apart_mm = std::abs(plane.distance_to(drawn_plane.origin));
+std::vector<Vec3> snapped_line(const LineInPlane& expected_line, const LineInPlane& drawn, const Image& image,
+                               const SnapOptions& options) {
+    const auto& [line, plane] = expected_line;
+    const double pixel_mm = smallest(image.grid.spacing_mm()), step_mm = kStepPixels * pixel_mm;
+    const double apart_mm = std::abs(plane.distance_to(drawn.plane.origin));
     const double reach_mm = options.reach_mm > 0 ? options.reach_mm : std::clamp(2 * apart_mm, 2 * pixel_mm, 10 * pixel_mm);
     const Polygon2 expected = on(plane, line);
     // Both lines are looked at in the plane's own (u, v): the drawn one is laid onto it along the normal.
-    const Polygon2 known = on(plane, drawn);
+    const Polygon2 known = on(plane, drawn.points);
     if (expected.size() < 3 || known.size() < 3) return line;
     double length = 0;
     for (std::size_t i = 0, j = line.size() - 1; i < line.size(); j = i++) length += distance(line[j], line[i]);
@@ -188,18 +184,18 @@ std::vector<Vec3> snapped_line(const std::vector<Vec3>& line, const Plane& plane
     const int band = static_cast<int>(std::lround(options.band_pixels / kStepPixels));
     const int reach = static_cast<int>(std::lround(reach_mm / step_mm));
     Plane behind = plane;  // where the drawn line lies, with the same axes
-    behind.origin += plane.distance_to(drawn_plane.origin) * plane.normal;
+    behind.origin += plane.distance_to(drawn.plane.origin) * plane.normal;
     const double margin_mm = (band + reach + 2) * step_mm;
     const Patch here(image, plane, expected, margin_mm, pixel_mm), there(image, behind, known, margin_mm, pixel_mm);
-    const std::vector<Place> places = places_on(expected, count), patterns = places_on(known, 2 * count);
+    const std::vector<EdgePoint> places = places_on(expected, count), patterns = places_on(known, 2 * count);
     std::vector<std::vector<double>> looks;  // of the image beside the drawn line
-    for (const Place& one : patterns) looks.push_back(there.across(one, -band, band, step_mm));
+    for (const EdgePoint& one : patterns) looks.push_back(there.across(one, -band, band, step_mm));
     const double contrast = deviation(looks);
     if (!(contrast > 0)) return line;
 
     Costs costs(count, std::vector<double>(static_cast<std::size_t>(2 * reach + 1)));
     for (std::size_t i = 0; i < count; ++i) {
-        const auto nearest = std::ranges::min_element(patterns, {}, [&](const Place& one) {
+        const auto nearest = std::ranges::min_element(patterns, {}, [&](const EdgePoint& one) {
             const Point2 away = one.at - places[i].at;
             return std::hypot(away[0], away[1]);
         });

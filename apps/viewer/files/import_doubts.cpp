@@ -46,14 +46,22 @@ std::optional<std::string> doubt(const ContourSet& set, const Grid& image, doubl
     return fmt::format("{:.0f} % of the points of {} lie outside of the image.", percent, name);
 }
 
+/// People know patients; frames of reference are numbers that nobody can check.
+std::optional<std::string> doubt_of_source(const Source& drawn, const Source& image) {
+    const auto differ = [](const std::string& a, const std::string& b) { return !a.empty() && !b.empty() && a != b; };
+    if (differ(drawn.patient, image.patient))
+        return fmt::format("It was drawn on an image of {}, and this image is of {}.", drawn.patient, image.patient);
+    if (!differ(drawn.frame_of_reference_uid, image.frame_of_reference_uid)) return std::nullopt;
+    const std::string of = drawn.patient.empty() ? "" : fmt::format(" of {}", drawn.patient);
+    return fmt::format("It was drawn on another scan{} than this one: their frames of reference differ.", of);
+}
+
 }  // namespace
 
-std::vector<std::string> import_doubts(const std::vector<ContourSet>& sets, const FrameUid& frame, const Grid& image,
-                                       const FrameUid& image_frame, double most_outside) {
+std::vector<std::string> import_doubts(const std::vector<ContourSet>& sets, const Source& drawn, const Grid& image,
+                                       const Source& image_source, double most_outside) {
     std::vector<std::string> doubts;
-    if (!frame.empty() && !image_frame.empty() && frame != image_frame)
-        doubts.push_back(
-            fmt::format("It was drawn in another frame of reference ({}) than the image's ({}).", frame, image_frame));
+    if (auto sentence = doubt_of_source(drawn, image_source)) doubts.push_back(std::move(*sentence));
     std::size_t outside = 0;
     for (const ContourSet& set : sets)
         if (auto sentence = doubt(set, image, most_outside); sentence && ++outside <= kMostNamed)

@@ -61,7 +61,7 @@ void limit_this_process(pid_t server) {
     signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit then fails, and is told as such
 }
 
-constexpr int kWords = 7;
+constexpr int kWords = 8;
 
 std::vector<std::string> words_of(const Upload& upload) {
     std::string axes;
@@ -74,6 +74,7 @@ std::vector<std::string> words_of(const Upload& upload) {
             upload.extension,
             std::to_string(upload.trace.planes),
             axes,
+            upload.trace.preview ? "preview" : "import",
             std::to_string(getpid())};
 }
 
@@ -82,7 +83,7 @@ Upload upload_from(char** words) {
     const auto has = [&](char axis) { return axes.find(axis) != std::string_view::npos; };
     return {content == "mask" ? Upload::Content::mask : Upload::Content::contours,
             words[3],
-            {std::atoi(words[4]), has('a'), has('s'), has('c')},
+            {std::atoi(words[4]), has('a'), has('s'), has('c'), std::string_view(words[6]) == "preview"},
             false};
 }
 
@@ -148,7 +149,7 @@ void check_ended_in_time(int status) {
 
 std::optional<Upload> begin_import_process(int argc, char** argv) {
     if (argc != kWords) return std::nullopt;
-    limit_this_process(std::atoi(argv[6]));
+    limit_this_process(std::atoi(argv[7]));
     return upload_from(argv);
 }
 

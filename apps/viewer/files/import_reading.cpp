@@ -7,19 +7,25 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "kontur/base/error.h"
 #include "kontur/extract/trace.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/dicom/dicom_identity.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
+#include "kontur/io/images/nifti_extensions.h"
 #include "kontur/io/images/nrrd.h"
 #include "kontur/io/images/segment_tags.h"
+#include "kontur/segment.h"
 #include "kontur/shape/repeated_contours.h"
+#include "viewer/images/further_image.h"
 #include "viewer/images/views.h"
+#include "viewer/model/model.h"
 
 namespace kontur::viewer {
 namespace {
@@ -91,7 +97,18 @@ Imported read_rtstruct_of(const fs::path& path) {
 struct Traced {
     std::string name;  ///< "" where the file has none
     StructureAttributes attributes{};
+    std::optional<std::int64_t> label_value{};
 };
+
+TracedMask preview_of(const Mask& mask, const ContourSet& set) {
+    const double voxel_ml = mask.grid.voxel_volume_mm3() / 1000;
+    const Mask made = segment(set, mask.grid).mask;
+    const auto count = [](const Mask& one) { return static_cast<double>(std::ranges::count(one.values, 1)); };
+    double both = 0;
+    for (std::size_t n = 0; n < mask.values.size(); ++n) both += mask.values[n] == 1 && made.values[n] == 1;
+    const double own = count(mask), again = count(made);
+    return {set.name, own * voxel_ml, again * voxel_ml, 2 * both / (own + again)};
+}
 
 /// Adds what a mask becomes, or why it becomes nothing.
 void add_traced(Imported& imported, const Mask& mask, Traced of, const TraceRequest& request) {
@@ -102,6 +119,8 @@ void add_traced(Imported& imported, const Mask& mask, Traced of, const TraceRequ
     }
     set.name = std::move(of.name);
     set.attributes = std::move(of.attributes);
+    if (request.preview) return imported.traced.push_back(preview_of(mask, set));
+    if (of.label_value) imported.label_values[imported.sets.size()] = *of.label_value;
     imported.sets.push_back(std::move(set));
 }
 
@@ -111,13 +130,13 @@ Imported read_segments_of(const fs::path& path, const TraceRequest& request) {
     if (about.segments.size() > kMostImportedLabels)
         throw Error(ErrorKind::too_large, fmt::format("the segmentation has {} segments; the limit is {}",
                                                       about.segments.size(), kMostImportedLabels));
-    Imported imported{{}, about.notes, about.frame_of_reference_uid};
+    Imported imported{{}, about.notes, about.frame_of_reference_uid, {}};
     for (std::size_t n = 0; n < masks.size(); ++n) {
         const DicomSegment& segment = about.segments[n];
         const std::string name = segment.label.empty() ? fmt::format("Segment {}", segment.number) : segment.label;
         add_traced(imported, masks[n], {name, attributes_of(segment)}, request);
     }
-    if (imported.sets.empty())
+    if (imported.sets.empty() && imported.traced.empty())
         throw Error(ErrorKind::invalid_input, "the segmentation has nothing that is large enough to trace");
     return imported;
 }
@@ -127,12 +146,15 @@ Imported read_contours_of(const fs::path& path, const TraceRequest& request) {
     if (path.extension() == ".dcm" && is_dicom_seg(path)) return read_segments_of(path, request);
     ReadContours read = read_contours(path);
     for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
-    return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
+    return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid), {}};
 }
 
-/// What 3D Slicer's segmentations say of the labels of each of their layers; one layer without names of other files.
+/// What 3D Slicer's segmentations say of the labels of each of their layers, and NIfTI's table of the one layer there is.
 std::map<std::int64_t, std::map<std::int64_t, Traced>> named_layers(const fs::path& path) {
     std::map<std::int64_t, std::map<std::int64_t, Traced>> layers;
+    if (path.extension() == ".nii" || path.extension() == ".gz")
+        for (const NamedLabel& label : read_nifti_labels(path))
+            layers[0][label.label] = {label.name, StructureAttributes{.color = to_rgb8(label.color)}};
     if (path.extension() == ".nrrd")
         for (const NrrdSegment& segment : read_nrrd_segments(path)) {
             const SegmentTerms terms = terms_in_tags(segment.tags);
@@ -150,9 +172,10 @@ bool add_labels(Imported& imported, const Image& labels, const std::map<std::int
     const auto counts = count_labels(labels, kMostImportedLabels);
     for (const auto& [label, voxels] : counts) {
         const auto known = named.find(label);
-        const Traced unnamed{counts.size() == 1 ? "" : fmt::format("Label {}", label)};
-        add_traced(imported, select_label(labels, static_cast<double>(label)),
-                   known == named.end() ? unnamed : known->second, request);
+        const bool is_alone = counts.size() == 1;
+        Traced of = known == named.end() ? Traced{is_alone ? "" : fmt::format("Label {}", label)} : known->second;
+        if (label > 0 && label <= kLargestLabelValue && !(is_alone && label == 1)) of.label_value = label;  // 1: any mask's
+        add_traced(imported, select_label(labels, static_cast<double>(label)), std::move(of), request);
     }
     return !counts.empty();
 }
@@ -163,18 +186,22 @@ Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
     const auto layers = named_layers(path);
     for (const auto& [layer, named] : layers) {
         ReadImageOptions options;
-        if (layers.size() > 1) options.frame = layer;
+        if (layers.size() > 1) options.frame = layer + 1;
         has_labels |= add_labels(imported, read_label_image(path, options), named, request);
     }
     if (!has_labels) throw Error(ErrorKind::invalid_input, "the mask is empty");
-    if (imported.sets.empty()) throw Error(ErrorKind::invalid_input, "the mask has nothing that is large enough to trace");
+    if (imported.sets.empty() && imported.traced.empty())
+        throw Error(ErrorKind::invalid_input, "the mask has nothing that is large enough to trace");
     return imported;
 }
 
 }  // namespace
 
 Imported read_import(const fs::path& path, const Upload& upload) {
-    return upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path, upload.trace);
+    Imported imported =
+        upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path, upload.trace);
+    if (path.extension() == ".dcm") imported.patient = patient_words(dicom_identity(path));
+    return imported;
 }
 
 }  // namespace kontur::viewer

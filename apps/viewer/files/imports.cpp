@@ -25,11 +25,23 @@ constexpr const char* kResult = "result.json";
 
 // In the process that reads
 
+json to_json(const std::vector<TracedMask>& all) {
+    json list = json::array();
+    for (const TracedMask& one : all)
+        list.push_back({{"name", one.name}, {"volume_ml", one.volume_ml}, {"traced_ml", one.traced_ml}, {"dice", one.dice}});
+    return list;
+}
+
 json result_of(const Upload& upload) {
     const fs::path path = "upload" + upload.extension;
     const Imported imported = read_import(path, upload);
     for (std::size_t i = 0; i < imported.sets.size(); ++i) write_contours(fmt::format("{}.json", i), imported.sets[i]);
-    return {{"sets", imported.sets.size()}, {"notes", imported.notes}, {"frame", imported.frame_of_reference_uid}};
+    return {{"sets", imported.sets.size()},
+            {"notes", imported.notes},
+            {"frame", imported.frame_of_reference_uid},
+            {"patient", imported.patient},
+            {"label_values", imported.label_values},
+            {"traced", to_json(imported.traced)}};
 }
 
 json error_json(ErrorKind kind, std::string_view sentence) {
@@ -70,6 +82,10 @@ Imported result_in(const fs::path& folder, int status, const Work& work) {
     }
     imported.notes = result.at("notes").get<std::vector<std::string>>();
     imported.frame_of_reference_uid = result.at("frame").get<std::string>();
+    imported.patient = result.at("patient").get<std::string>();
+    imported.label_values = result.at("label_values").get<LabelValues>();
+    for (const json& one : result.at("traced"))
+        imported.traced.push_back({one.at("name"), one.at("volume_ml"), one.at("traced_ml"), one.at("dice")});
     return imported;
 }
 

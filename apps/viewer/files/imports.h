@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ inline constexpr std::array kMaskEndings{".nii.gz", ".nii", ".seg.nrrd", ".nrrd"
 struct TraceRequest {
     int planes = 9;  ///< along each axis
     bool axial = true, sagittal = true, coronal = true;
+    bool preview = false;  ///< nothing comes in, and `Imported::traced` says what the planes keep
 };
 
 /// A file that a page has sent.
@@ -33,10 +36,23 @@ struct Upload {
     std::string file{};       ///< its name, for what has none of its own; nothing is opened by it
 };
 
+/// Of structures that were labels of a map, by their place in the list.
+using LabelValues = std::map<std::size_t, std::int64_t>;
+
+/// What the contours of a mask make of it again.
+struct TracedMask {
+    std::string name;
+    double volume_ml = 0, traced_ml = 0;  ///< of the mask, and of what the contours make
+    double dice = 0;                      ///< of the two
+};
+
 struct Imported {
     std::vector<ContourSet> sets;          ///< one for each structure of the file, none of them empty
     std::vector<std::string> notes;        ///< how the file was read, for the user to see
     std::string frame_of_reference_uid{};  ///< "" when none is named
+    std::string patient{};                 ///< whom a DICOM file is of, for people; "" where it does not say
+    LabelValues label_values{};            ///< of those sets that had one
+    std::vector<TracedMask> traced{};      ///< of a preview; there are no sets then
 };
 
 /// What the file holds, read by this program in a process of its own, with limits on memory and time: a file that crashes a

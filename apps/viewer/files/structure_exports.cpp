@@ -21,6 +21,7 @@
 #include "kontur/segment_together.h"
 #include "viewer/files/zip.h"
 #include "viewer/model/file_names.h"
+#include "viewer/model/label_values.h"
 #include "viewer/model/temporary_files.h"
 #include "viewer/surfaces/border_sharing.h"
 
@@ -42,8 +43,21 @@ std::vector<std::size_t> by_size(const All& all) {
     return order;
 }
 
+std::vector<std::int64_t> label_values_of(const All& all) {
+    std::vector<std::optional<std::int64_t>> own;
+    for (const FittedStructure& one : all) own.push_back(one.structure.label_value);
+    return label_values(own);
+}
+
+/// 1, 2, ...
+std::vector<std::int64_t> places_of(const All& all) {
+    std::vector<std::int64_t> places(all.size());
+    std::iota(places.begin(), places.end(), std::int64_t{1});
+    return places;
+}
+
 /// How the structures were made; what differs has the label's number behind its name.
-Provenance together(const All& all) {
+Provenance together(const All& all, const std::vector<std::int64_t>& numbers) {
     Provenance made;
     for (std::size_t n = 0; n < all.size(); ++n)
         for (const auto& [name, value] : provenance(all[n].set, all[n].made.mask.grid, all[n].made.report)) {
@@ -54,14 +68,14 @@ Provenance together(const All& all) {
                 }))
                 made.push_back(entry);
             else if (std::find(made.begin(), made.end(), entry) == made.end())
-                made.emplace_back(fmt::format("{}_{}", name, n + 1), value);
+                made.emplace_back(fmt::format("{}_{}", name, numbers[n]), value);
         }
     return made;
 }
 
 std::vector<std::string> write_labels(const fs::path& path, const All& all) {
-    std::vector<std::uint16_t> labels(all.front().made.mask.values.size());
-    std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared;  // of the larger and the smaller structure
+    std::vector<std::uint16_t> labels(all.front().made.mask.values.size());  // places in the list, from 1
+    std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared;      // of the larger and the smaller structure
     for (const std::size_t n : by_size(all)) {
         const std::vector<std::uint8_t>& inside = all[n].made.mask.values;
         for (std::size_t v = 0; v < labels.size(); ++v) {
@@ -70,10 +84,15 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
             labels[v] = static_cast<std::uint16_t>(n + 1);
         }
     }
+    const std::vector<std::int64_t> values = label_values_of(all);
+    for (std::uint16_t& label : labels)
+        if (label != 0) label = static_cast<std::uint16_t>(values[label - 1u]);
     WriteImageOptions options;
-    options.provenance = together(all);
+    options.provenance = together(all, values);
+    for (std::size_t n = 0; n < all.size(); ++n)
+        options.names.push_back({values[n], all[n].structure.name, rgb(all[n].structure.color)});
     Image image{all.front().made.mask.grid, labels};
-    if (all.size() <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
+    if (std::ranges::max(values) <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
     write_image(path, image, options);
     std::vector<std::string> notes;
     for (const auto& [pair, voxels] : shared)
@@ -88,12 +107,14 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
 void write_layers(const fs::path& path, const All& all) {
     std::vector<Mask> masks;
     std::vector<NrrdSegment> segments;
+    const std::vector<std::int64_t> values = label_values_of(all);
     for (const FittedStructure& one : all) {
         masks.push_back(one.made.mask);
-        segments.push_back({.name = one.structure.name, .color = rgb(one.structure.color)});
+        segments.push_back(
+            {.name = one.structure.name, .color = rgb(one.structure.color), .label_value = values[segments.size()]});
         segments.back().tags = tags_of_terms(one.set.attributes);
     }
-    write_seg_nrrd_masks(path, masks, segments, together(all));
+    write_seg_nrrd_masks(path, masks, segments, together(all, values));
 }
 
 std::vector<std::string> write_seg(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
@@ -106,8 +127,9 @@ std::vector<std::string> write_seg(const fs::path& path, const All& all, const D
         segments.back().label = one.structure.name;
     }
     return write_dicom_seg_masks(
-        path, masks, segments, images,
-        {.algorithm = {"kontur variational interpolation", KONTUR_VERSION, ""}, .provenance = together(all)}, work);
+        path, {masks, segments}, images,
+        {.algorithm = {"kontur variational interpolation", KONTUR_VERSION, ""}, .provenance = together(all, places_of(all))},
+        work);
 }
 
 std::vector<std::string> write_regions(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
@@ -122,7 +144,7 @@ std::vector<std::string> write_regions(const fs::path& path, const All& all, con
         set.rois.push_back(std::move(roi));
     }
     WriteRtstructOptions options;
-    options.provenance = together(all);
+    options.provenance = together(all, places_of(all));
     return write_rtstruct(path, set, images, options);
 }
 

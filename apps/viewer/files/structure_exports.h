@@ -44,8 +44,9 @@ std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& st
 /// One of them; only where borders are shared are the others fitted, too.
 FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work);
 
-/// Writes the file of this name, one of `kExportsOfAll`. Labels count from 1 in the order of the structures; a voxel in
-/// several of them belongs to the smallest, so that a lesion in an organ is not lost; in DICOM objects it belongs to all.
+/// Writes the file of this name, one of `kExportsOfAll`. A label map has the values of
+/// `label_values` and, where the format has room, names; a voxel in several structures belongs to the smallest, so that a
+/// lesion in an organ is not lost; in DICOM objects it belongs to all.
 /// Returns what the user should know, one sentence each. Throws Error(invalid_input) for a DICOM object without DICOM
 /// images.
 std::vector<std::string> write_structures(const std::filesystem::path& path, std::string_view name,

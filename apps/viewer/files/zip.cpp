@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/files/zip.h"
 
-#include <array>
+#include <zlib.h>
+
 #include <cstdint>
 #include <limits>
 
@@ -10,20 +11,8 @@
 namespace kontur::viewer {
 namespace {
 
-constexpr std::array<std::uint32_t, 256> kCrcTable = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t n = 0; n < 256; ++n) {
-        std::uint32_t value = n;
-        for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1) ? 0xEDB88320u : 0u);
-        table[n] = value;
-    }
-    return table;
-}();
-
-std::uint32_t crc32(const std::string& bytes) {
-    std::uint32_t crc = 0xFFFFFFFFu;
-    for (const char c : bytes) crc = kCrcTable[(crc ^ static_cast<unsigned char>(c)) & 0xFF] ^ (crc >> 8);
-    return crc ^ 0xFFFFFFFFu;
+std::uint32_t checksum(const std::string& bytes) {
+    return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 void put(std::string& out, std::uint32_t value, int bytes) {
@@ -39,7 +28,7 @@ void put_description(std::string& out, const ZipEntry& entry) {
     put(out, 0, 2);  // stored
     put(out, 0, 2);  // time
     put(out, kFirstOfJanuary1980, 2);
-    put(out, crc32(entry.bytes), 4);
+    put(out, checksum(entry.bytes), 4);
     put(out, size, 4);
     put(out, size, 4);
     put(out, static_cast<std::uint32_t>(entry.name.size()), 2);

@@ -10,6 +10,7 @@
 #include "kontur/base/error.h"
 #include "kontur/io/dicom/dicom_identity.h"
 #include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/image.h"
 #include "kontur/view/reslice.h"
 #include "kontur/view/window.h"
 #include "viewer/model/binary_reply.h"
@@ -37,6 +38,7 @@ json volume_json(const DicomSeries& series, int volume) {
             {"study_date", identity.study_date},
             {"study_description", identity.study_description},
             {"series_number", identity.series_number},
+            {"frame_of_reference_uid", series.frame_of_reference_uid},
             {"picture", {{"file", series.files[middle].string()}, {"frame", series.frames[middle]}}}};
 }
 
@@ -51,6 +53,20 @@ Reslice small_raster(const Grid& grid) {
     return centered_reslice(plane, pixels(width_mm), pixels(height_mm), pixel_mm);
 }
 
+/// The slice in the middle, in shades of the image's own window.
+std::string picture_of(const Image& image) {
+    const Reslice raster = small_raster(image.grid);
+    const Window window = suggest_window(image);
+    const std::vector<float> values = reslice(image, raster, static_cast<float>(window.center - window.width));
+    std::vector<std::uint8_t> pixels(values.size());
+    std::ranges::transform(values, pixels.begin(), [&](float value) {
+        return static_cast<std::uint8_t>(std::lround(255 * brightness(value, window)));
+    });
+    BinaryReply reply(json{{"width", raster.width}, {"height", raster.height}});
+    reply.add<std::uint8_t>("pixels", pixels);
+    return reply.bytes();
+}
+
 }  // namespace
 
 json dicom_volumes(const std::filesystem::path& folder, const Work& work) {
@@ -62,17 +78,13 @@ json dicom_volumes(const std::filesystem::path& folder, const Work& work) {
 }
 
 std::string thumbnail(const std::filesystem::path& file, std::int64_t frame) {
-    const Image image = read_dicom_slice(file, frame);
-    const Reslice raster = small_raster(image.grid);
-    const Window window = suggest_window(image);
-    const std::vector<float> values = reslice(image, raster, static_cast<float>(window.center - window.width));
-    std::vector<std::uint8_t> pixels(values.size());
-    std::ranges::transform(values, pixels.begin(), [&](float value) {
-        return static_cast<std::uint8_t>(std::lround(255 * brightness(value, window)));
-    });
-    BinaryReply reply(json{{"width", raster.width}, {"height", raster.height}});
-    reply.add<std::uint8_t>("pixels", pixels);
-    return reply.bytes();
+    return picture_of(read_dicom_slice(file, frame));
+}
+
+std::string frame_thumbnail(const std::filesystem::path& file, std::int64_t frame) {
+    ReadImageOptions options;
+    options.frame = frame;
+    return picture_of(read_image(file, options));
 }
 
 }  // namespace kontur::viewer

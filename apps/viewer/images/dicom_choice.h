@@ -17,5 +17,7 @@ nlohmann::json dicom_volumes(const std::filesystem::path& folder, const Work& wo
 
 /// A small picture of one slice, as a binary reply. Throws as `read_dicom_slice`.
 std::string thumbnail(const std::filesystem::path& file, std::int64_t frame);
+/// The same of the middle slice of a file's frame, from 1. Throws what `read_image` throws.
+std::string frame_thumbnail(const std::filesystem::path& file, std::int64_t frame);
 
 }  // namespace kontur::viewer

@@ -29,6 +29,12 @@ std::vector<WindowPreset> emission_presets(const Image& image, const std::string
 
 }  // namespace
 
+std::string patient_words(const DicomIdentity& identity) {
+    if (identity.patient_id.empty()) return identity.patient_name;
+    const std::string id = "ID " + identity.patient_id;
+    return identity.patient_name.empty() ? id : fmt::format("{} ({})", identity.patient_name, id);
+}
+
 std::string unit_of(const DicomIdentity& identity, const Image& image) {
     if (!identity.modality.empty()) return identity.unit;
     return looks_like_ct(image) ? "HU" : "";

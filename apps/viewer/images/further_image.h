@@ -27,6 +27,9 @@ struct FurtherImage {
 
 FurtherImage further_image(OpenedImage opened);
 
+/// "Doe, Jane (ID 17)"; one of the two where the file says no more, "" where it says neither.
+std::string patient_words(const DicomIdentity& identity);
+
 /// Of the values; "" where the file names none.
 std::string unit_of(const DicomIdentity& identity, const Image& image);
 

@@ -20,7 +20,7 @@ json to_json(const ImageChoice& choice) {
     json object = json::object();
     if (choice.series_uid) object["series"] = *choice.series_uid;
     if (choice.volume) object["volume"] = *choice.volume;
-    if (choice.frame) object["frame"] = *choice.frame;
+    if (choice.frame) object["frame"] = *choice.frame - 1;  // projects and requests count from 0
     if (choice.prefer) object["prefer"] = *choice.prefer == NiftiTransform::sform ? "sform" : "qform";
     return object;
 }
@@ -37,7 +37,7 @@ ImageChoice choice_from_json(const json& object) {
     ImageChoice choice;
     if (m.has("series")) choice.series_uid = m.text("series", kLongestUid);
     if (m.has("volume")) choice.volume = static_cast<int>(m.integer("volume", 1, kMost));
-    if (m.has("frame")) choice.frame = m.integer("frame", 0, kMost);
+    if (m.has("frame")) choice.frame = m.integer("frame", 0, kMost) + 1;
     if (m.has("prefer")) {
         const std::string word = m.text("prefer", 5);
         if (word != "sform" && word != "qform")

@@ -5,7 +5,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "kontur/base/error.h"
 #include "kontur/io/images/read_image_options.h"
 
 namespace kontur::viewer {
@@ -14,7 +16,7 @@ namespace kontur::viewer {
 struct ImageChoice {
     std::optional<std::string> series_uid{};
     std::optional<int> volume{};             ///< of the series, from 1
-    std::optional<std::int64_t> frame{};     ///< from 0
+    std::optional<std::int64_t> frame{};     ///< from 1
     std::optional<NiftiTransform> prefer{};  ///< of two that differ
 
     friend bool operator==(const ImageChoice&, const ImageChoice&) = default;
@@ -27,6 +29,16 @@ struct ImageReference {
     ImageChoice choice{};
 
     friend bool operator==(const ImageReference&, const ImageReference&) = default;
+};
+
+/// A project's image is not where it was.
+class ImageMoved : public Error {
+public:
+    ImageMoved(const std::string& sentence, std::string image) : Error(ErrorKind::io, sentence), image_(std::move(image)) {}
+    const std::string& image() const { return image_; }
+
+private:
+    std::string image_;
 };
 
 // As requests and project files have them: members `series`, `volume`, `frame`, `prefer`, beside a reference's `path` and

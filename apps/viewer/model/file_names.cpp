@@ -12,7 +12,8 @@ std::string plain_name(const std::string& name) {
     for (const char c : name) {
         const bool is_plain =
             (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-        plain += is_plain ? c : '_';
+        if (is_plain) plain += c;
+        else if (!plain.ends_with('_')) plain += '_';
     }
     return plain.empty() ? "structure" : plain;
 }

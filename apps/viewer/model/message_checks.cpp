@@ -33,8 +33,8 @@ std::string shown(const json& value) {
 }
 
 /// Where in a message a value stands; the way up to it is spelt out only for a sentence.
-struct Place {
-    const Place* above = nullptr;
+struct JsonPlace {
+    const JsonPlace* above = nullptr;
     std::string_view name = {};
     std::size_t index = 0;
 
@@ -81,10 +81,10 @@ bool fits(const json& value, const Type& type) {
     return false;
 }
 
-void check(const json& value, const Type& type, const Place& place) {
+void check(const json& value, const Type& type, const JsonPlace& place) {
     if (!fits(value, type)) refuse(fmt::format("'{}' is {}; {} is needed", place.text(), shown(value), type.needed));
     for (const auto& [name, member, is_needed] : type.members) {
-        const Place inside{&place, name};
+        const JsonPlace inside{&place, name};
         if (const auto found = value.find(name); found != value.end()) check(*found, *member, inside);
         else if (is_needed) refuse(fmt::format("'{}' is missing; {} is needed", inside.text(), member->needed));
     }

@@ -45,25 +45,17 @@ DrawnContour as_drawn(const Contour& contour) {
     DrawnContour drawn;
     drawn.plane = contour.plane;
     drawn.points = contour.points;
-    drawn.hole = contour.hole;
-    drawn.closed = contour.closed;
-    drawn.inside = contour.inside;
-    drawn.end = contour.end;
-    drawn.weight = contour.weight;
+    copy_marks(contour, drawn);
     if (!drawn.points.empty()) drawn.control.push_back({drawn.points.front(), Stretch::free, 0});
     if (!drawn.closed && drawn.points.size() > 1)
         drawn.control.push_back({drawn.points.back(), Stretch::free, drawn.points.size() - 1});
     return drawn;
 }
 
-Contour as_contour(const DrawnContour& contour) {
-    return {.plane = contour.plane,
-            .points = contour.points,
-            .closed = contour.closed,
-            .hole = contour.hole,
-            .end = contour.end,
-            .inside = contour.inside,
-            .weight = contour.weight};
+Contour as_contour(const DrawnContour& drawn) {
+    Contour contour{.plane = drawn.plane, .points = drawn.points};
+    copy_marks(drawn, contour);
+    return contour;
 }
 
 StructureAttributes attributes_of(const Structure& structure) {

@@ -46,6 +46,16 @@ struct DrawnContour {
     friend bool operator==(const DrawnContour&, const DrawnContour&) = default;
 };
 
+/// What a line is besides its points; both have these members.
+template <class From, class To>
+void copy_marks(const From& from, To& to) {
+    to.hole = from.hole;
+    to.closed = from.closed;
+    to.inside = from.inside;
+    to.end = from.end;
+    to.weight = from.weight;
+}
+
 /// "freehand", "spline", "livewire" when all stretches are of that kind, else "mixed".
 std::string_view kind_name(const DrawnContour& contour) noexcept;
 
@@ -54,6 +64,8 @@ DrawnContour as_drawn(const Contour& contour);
 
 /// As the library takes it.
 Contour as_contour(const DrawnContour& contour);
+
+constexpr std::int64_t kLargestLabelValue = 65535;  ///< that label maps are written with
 
 struct Structure {
     Id id = 0;
@@ -65,6 +77,7 @@ struct Structure {
     std::vector<SurfacePoint> surface_points{};  ///< that its surface passes
     std::vector<Vec3> interior{}, exterior{};    ///< points that lie inside, outside of it
     StructureAttributes attributes{};            ///< what its file said of it, for exports; without the colour, see above
+    std::optional<std::int64_t> label_value{};   ///< in label maps; unset: one that no other structure has
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };

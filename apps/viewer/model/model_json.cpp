@@ -110,6 +110,7 @@ json to_json(const SurfacePoint& point) {
 json to_json(const Structure& s) {
     json told{{"id", s.id}, {"name", s.name}, {"color", s.color}, {"visible", s.visible}};
     if (s.smoothing) told["smoothing"] = *s.smoothing;
+    if (s.label_value) told["label_value"] = *s.label_value;
     if (s.attributes != StructureAttributes{}) told["attributes"] = json::parse(to_json(s.attributes));
     for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
     for (const SurfacePoint& point : s.surface_points) told["surface_points"].push_back(to_json(point));
@@ -284,11 +285,17 @@ std::optional<double> Members::smoothing(const char* key) const {
     return value;
 }
 
+std::optional<std::int64_t> Members::label_value(const char* key) const {
+    if (at(key) == "automatic") return std::nullopt;
+    return integer(key, 1, kLargestLabelValue);
+}
+
 Structure structure_from_json(const json& value) {
     const Members m(value, kStoredLimits);
     Structure structure{m.id("id"), m.text("name", kMostNameBytes), m.color("color"), m.flag("visible")};
     if (m.has("empty_planes")) structure.empty_planes = m.planes("empty_planes");
     if (m.has("smoothing")) structure.smoothing = m.smoothing("smoothing");
+    if (m.has("label_value")) structure.label_value = m.label_value("label_value");
     if (m.has("surface_points")) structure.surface_points = m.surface_points("surface_points");
     if (m.has("interior")) structure.interior = m.points("interior");
     if (m.has("exterior")) structure.exterior = m.points("exterior");

@@ -65,6 +65,8 @@ public:
     bool flag(const char* key) const;
     /// Of a structure's fit; nullopt: "usual", what the library chooses.
     std::optional<double> smoothing(const char* key) const;
+    /// From 1 to 65535; unset for "automatic".
+    std::optional<std::int64_t> label_value(const char* key) const;
     bool flag_or(const char* key, bool fallback) const;
     /// At most `most` bytes of UTF-8 (nlohmann's parser has checked that it is).
     std::string text(const char* key, std::size_t most) const;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kontur/base/work.h"
+#include "viewer/model/stage_words.h"
 
 namespace kontur::viewer {
 
@@ -31,7 +32,7 @@ public:
             const std::pair<std::string_view, int> now{stage, static_cast<int>(10 * done)};
             if (*last == now) return;
             *last = now;
-            tell_(fmt::format("{}: {}", what_, stage), now.second / 10.0);
+            tell_(fmt::format("{}: {}", what_, words_of_stage(stage)), now.second / 10.0);
         };
         return {.callback = tell, .stop = stop};
     }

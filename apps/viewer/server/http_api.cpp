@@ -19,6 +19,7 @@
 #include "viewer/server/gzip.h"
 #include "viewer/server/page.h"
 #include "viewer/server/start_api.h"
+#include "viewer/store/places.h"
 
 namespace kontur::viewer {
 namespace {
@@ -79,6 +80,8 @@ HttpReply guarded(Make make) {
         return choice_reply(error, {{"transforms", true}});
     } catch (const StructureRemoved&) {
         return nothing();
+    } catch (const PathMissing& error) {
+        return error_reply(404, std::string(name(error.kind())), error.what());
     } catch (const Error& error) {
         return error_reply(status_of(error.kind()), std::string(name(error.kind())), error.what());
     } catch (const std::bad_alloc&) {
@@ -129,6 +132,7 @@ TraceRequest trace_request(const Target& target) {
         if (!request.axial && !request.sagittal && !request.coronal)
             throw Error(ErrorKind::invalid_input, "'axes' names none of axial, sagittal and coronal");
     }
+    request.preview = target.parameter("preview").has_value();
     return request;
 }
 
@@ -283,8 +287,7 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     Upload upload{.trace = trace_request(target), .anyway = anyway, .file = file};
     ImportReply reply;
     if (target.path == "/api/import/near") {
-        reply = workspace_.session(request.opening)
-                    ->import_near(target.parameter("file").value_or(""), upload, stop);
+        reply = workspace_.session(request.opening)->import_near(target.parameter("file").value_or(""), upload, stop);
     } else if (target.path == "/api/import/contours") {
         upload.extension = known_extension(file, kContourEndings);
         reply = workspace_.session(request.opening)->import(request.body, upload, stop);
@@ -295,10 +298,11 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     } else {
         return not_found();
     }
-    return {200,
-            "application/json",
-            to_text({{"structures", reply.structures}, {"doubts", reply.doubts}, {"notes", reply.notes}}),
-            {}};
+    json answer{{"structures", reply.structures}, {"doubts", reply.doubts}, {"notes", reply.notes}};
+    for (const TracedMask& one : reply.traced)
+        answer["traced"].push_back(
+            {{"name", one.name}, {"volume_ml", one.volume_ml}, {"traced_ml", one.traced_ml}, {"dice", one.dice}});
+    return {200, "application/json", to_text(answer), {}};
 }
 
 }  // namespace kontur::viewer

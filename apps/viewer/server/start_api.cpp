@@ -64,7 +64,10 @@ private:
 }  // namespace
 
 OpenRequest open_request_from(const json& document) {
-    return {document["path"].get<std::string>(), choice_from_json(document)};
+    // Of a second image it is a number.
+    const bool is_moved = document.contains("image") && document["image"].is_string();
+    return {document["path"].get<std::string>(), choice_from_json(document),
+            is_moved ? document["image"].get<std::string>() : ""};
 }
 
 std::optional<StartReply> start_api(Workspace& workspace, const std::string& method, const Target& target,
@@ -77,7 +80,8 @@ std::optional<StartReply> start_api(Workspace& workspace, const std::string& met
         return json_reply({{"path", folder.string()}, {"volumes", dicom_volumes(folder, status.work(stop))}});
     }
     if (method == "GET" && target.path == "/api/thumbnail")
-        return StartReply{"application/octet-stream", thumbnail(places.resolved(needed(target, "file")), frame_of(target))};
+        return StartReply{"application/octet-stream", (target.parameter("volume") ? frame_thumbnail : thumbnail)(
+                                                          places.resolved(needed(target, "file")), frame_of(target))};
     if (method != "POST") return std::nullopt;
     if (target.path == "/api/open") workspace.open(open_request_from(parsed_request(body, "OpenRequest")));
     else if (target.path == "/api/cancel") workspace.cancel();

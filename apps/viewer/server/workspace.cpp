@@ -190,6 +190,9 @@ void Workspace::read(const Open& open, const std::function<void(std::exception_p
     } catch (const TransformNeeded& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what(), {{"transforms", true}});
+    } catch (const ImageMoved& error) {
+        failure = std::current_exception();
+        fail(name(error.kind()), error.what(), {{"moved", error.image()}});
     } catch (const Error& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what());
@@ -258,6 +261,7 @@ void Workspace::open(const OpenRequest& request) {
     OpenRequest checked = request;
     const bool is_known = request.path == kExample || recent_.contains(request.path);
     if (!is_known) checked.path = services_.places.resolved(request.path.string());
+    if (!request.image.empty()) checked.image = services_.places.resolved(request.image.string());
     begin(checked.path.filename().string(), [this, checked](const Work& work) { return services_.open(checked, work); });
 }
 
@@ -268,7 +272,7 @@ void Workspace::put_second_image(const OpenRequest& request, const std::optional
     const std::unique_lock alone(reading_second_, std::try_to_lock);
     if (!alone)
         throw Error(ErrorKind::invalid_input, "another image is being added; wait until it is there, or cancel it first");
-    const OpenRequest checked{services_.places.resolved(request.path.string()), request.choice};
+    const OpenRequest checked{services_.places.resolved(request.path.string()), request.choice, {}};
     const std::string text = fmt::format("Reading {}", checked.path.filename().string());
     const StatusLine line([this](const std::string& said, std::optional<double> done) { tell_status(said, done); }, text);
     OpenedImage read = services_.read(checked, line.work(stop));

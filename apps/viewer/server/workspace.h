@@ -29,6 +29,7 @@ namespace kontur::viewer {
 struct OpenRequest {
     std::filesystem::path path;
     ImageChoice choice{};
+    std::filesystem::path image{};  ///< where the image of a project lies now; empty: where it was
 };
 
 /// The path that stands for the built-in example image.

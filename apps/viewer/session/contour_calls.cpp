@@ -53,8 +53,9 @@ std::vector<Id> ids_from(const Members& m) {
 
 /// What the history calls a new contour.
 std::string label_of(std::string_view origin) {
-    static constexpr std::array<std::pair<std::string_view, const char*>, 4> kOrigins{{{"drawn", "Draw a contour"},
+    static constexpr std::array<std::pair<std::string_view, const char*>, 5> kOrigins{{{"drawn", "Draw a contour"},
                                                                                        {"pulled", "Pull the outline"},
+                                                                                       {"pushed", "Push the outline"},
                                                                                        {"adopted", "Keep the outline"},
                                                                                        {"proposed", "Accept the proposal"}}};
     return std::ranges::find(kOrigins, origin, &std::pair<std::string_view, const char*>::first)->second;
@@ -179,7 +180,9 @@ json redraw_contour(SessionState& s, const Members& m) {
     const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
     const std::vector<Vec3> path = m.points("path");
     const bool whole = m.flag_or("whole", false);
-    return put(s, "Redraw a part", whole ? redraw_whole(contour, path, s.edges) : redraw(contour, path, s.edges), m);
+    const bool is_pushed = m.has("origin") && m.text("origin", 16) == "pushed";
+    return put(s, is_pushed ? "Push a contour" : "Redraw a part",
+               whole ? redraw_whole(contour, path, s.edges) : redraw(contour, path, s.edges), m);
 }
 
 json translate_contour(SessionState& s, const Members& m) {

@@ -20,7 +20,7 @@ nlohmann::json further_images_json(const SessionState& s);
 /// Null where the image cannot tell borders.
 nlohmann::json use_image_json(const SessionState& s);
 
-/// How sure the surface is, at the image's resolution.
+/// How sure the surface is, at the image's resolution, and the volume that lies within the image.
 SurfaceEvidence evidence_of(const SessionState& s, const Surface& surface);
 /// The image that fits follow between contours; null where the project does not use it, or it cannot tell borders.
 std::shared_ptr<const Image> image_for_fits(const SessionState& s);

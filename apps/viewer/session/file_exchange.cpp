@@ -18,6 +18,7 @@
 #include "viewer/files/import_doubts.h"
 #include "viewer/files/structure_exports.h"
 #include "viewer/model/file_names.h"
+#include "viewer/model/label_values.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/status_line.h"
 #include "viewer/model/temporary_files.h"
@@ -39,9 +40,28 @@ bool is_one_of(const std::string& name, const Names& names) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// "liver.nii.gz" for a mask of the liver.
-std::string file_name(const std::string& structure, const std::string& kind) {
-    return plain_name(structure) + kind.substr(kind.find('.'));
+/// Of an image's file.
+std::string without_image_ending(const std::string& file) {
+    for (const char* ending : kMaskEndings)
+        if (lower_case(file).ends_with(ending)) return file.substr(0, file.size() - std::string_view(ending).size());
+    return file;
+}
+
+/// Whose image it is, and which: "Doe_Jane_Thorax_2mm" of DICOM, "scan17" of scan17.nii.gz.
+std::string name_of_image(const SessionState& s) {
+    const DicomIdentity& of = s.image.identity;
+    const std::string patient = of.patient_name.empty() ? of.patient_id : of.patient_name;
+    const std::string series = of.series_description.empty() ? of.series_number : of.series_description;
+    if (patient.empty() && series.empty()) return plain_name(without_image_ending(s.image.title));
+    if (patient.empty() || series.empty()) return plain_name(patient.empty() ? series : patient);
+    return plain_name(fmt::format("{} {}", patient, series));
+}
+
+/// "scan17_Liver.nii.gz" for a mask of the liver.
+std::string file_name(const SessionState& s, const std::string& of, const std::string& kind) {
+    const std::string ending = kind.substr(kind.find('.'));
+    if (of.empty()) return fmt::format("{}{}", name_of_image(s), ending);
+    return fmt::format("{}_{}{}", name_of_image(s), plain_name(of), ending);
 }
 
 void write_mask_file(const fs::path& path, const FittedStructure& one) {
@@ -79,6 +99,17 @@ std::string without_ending(const std::string& file, const std::string& ending) {
     return lower_case(file).ends_with(ending) ? file.substr(0, file.size() - ending.size()) : file;
 }
 
+/// With a note for each.
+void leave_out_taken_labels(Imported& imported, const State& state) {
+    std::erase_if(imported.label_values, [&](const auto& item) {
+        const Structure* const owner = owner_of_label(state, item.second, 0);
+        if (owner)
+            imported.notes.push_back(fmt::format("the label value {} of {} is that of {} here; another one is chosen",
+                                                 item.second, imported.sets[item.first].name, owner->name));
+        return owner != nullptr;
+    });
+}
+
 }  // namespace
 
 Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const std::stop_token& stop) {
@@ -89,12 +120,12 @@ Download exported(SessionState& s, const std::string& name, std::optional<Id> st
     if (name == "project.kontur") {
         const std::scoped_lock lock(s.mutex);
         s.project.copy_to(path);
-        download.file_name = file_name(s.project.path().stem().string(), name);
+        download.file_name = file_name(s, "", name);
     } else if (is_export_of_all(name)) {
         const ExportFits::Fits all = s.fits.all(s.state(), line.work(stop));
         for (const std::string& note : write_structures(path, name, *all, s.image.series, line.work(stop)))
             s.pages.notice("info", note);
-        download.file_name = plain_name(s.project.path().stem().string()) + "_" + name;
+        download.file_name = fmt::format("{}_{}", name_of_image(s), name);
     } else {
         if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
         const auto [now, image] = [&] {
@@ -109,7 +140,7 @@ Download exported(SessionState& s, const std::string& name, std::optional<Id> st
         else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
         else if (name == "picture.png") write_picture(path, *made(), *s.image.voxels);
         else throw Error(ErrorKind::unsupported, "there is no export of this name");
-        download.file_name = file_name(chosen.name, name);
+        download.file_name = file_name(s, chosen.name, name);
     }
     download.bytes = read_bytes(path);
     return download;
@@ -120,15 +151,22 @@ ImportReply import(SessionState& s, const std::string& bytes, const Upload& uplo
     const Work work{.stop = stop};
     Imported imported = import_apart(bytes, upload, work);
     work.check();
+    const std::string unnamed = without_ending(upload.file, upload.extension);
     for (ContourSet& set : imported.sets)
-        if (set.name.empty()) set.name = without_ending(upload.file, upload.extension);
+        if (set.name.empty()) set.name = unnamed;
+    for (TracedMask& one : imported.traced)
+        if (one.name.empty()) one.name = unnamed;
+    if (upload.trace.preview) return {{}, {}, imported.notes, imported.traced};
     if (!upload.anyway) {
-        auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, s.image.voxels->grid,
-                                    s.image.frame_of_reference_uid);
+        auto doubts = import_doubts(imported.sets, {imported.frame_of_reference_uid, imported.patient}, s.image.voxels->grid,
+                                    {s.image.frame_of_reference_uid, patient_words(s.image.identity)});
         if (!doubts.empty()) return {{}, std::move(doubts), {}};
     }
+    leave_out_taken_labels(imported, s.state());
     const bool is_mask = upload.content == Upload::Content::mask;
-    return {add_structures(s, is_mask ? "Import a mask" : "Import contours", imported.sets), {}, imported.notes};
+    return {add_structures(s, is_mask ? "Import a mask" : "Import contours", imported.sets, imported.label_values),
+            {},
+            imported.notes};
 }
 
 }  // namespace kontur::viewer

@@ -7,6 +7,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/sureness/surface_uncertainty.h"
+#include "kontur/view/picture.h"
 #include "viewer/model/model_json.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/events.h"
@@ -22,6 +23,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kLargestPageState = 64 << 10;
+constexpr double kMostBeyond = 0.01;  ///< of a surface: a contour on the last slice bulges a little beyond it
 
 json view_json(const View& view, const std::string& title) {
     return {{"title", title},
@@ -41,6 +43,16 @@ json views_json(const Grid& grid, const ViewNames& names) {
         views[kViews[at]] = view_json(view_of(grid, kind), names.titles[at]);
     }
     return views;
+}
+
+/// What the user should know where the surface leaves the image: all figures and files are of what lies within.
+std::optional<std::string> cut_by_image(double whole_ml, double within_ml) {
+    const double beyond_ml = whole_ml - within_ml;
+    if (beyond_ml <= kMostBeyond * whole_ml) return std::nullopt;
+    return fmt::format(
+        "The image ends inside the structure: {} of its surface lie beyond. Volume, mask and surface files "
+        "hold only what lies within the image.",
+        in_ml(beyond_ml));
 }
 
 json corners_json(const Grid& grid) {
@@ -91,6 +103,7 @@ std::string greeting(SessionState& s, const json& more) {
                {"version", KONTUR_VERSION},
                {"title", s.image.title},
                {"project", s.project.path().filename().string()},
+               {"project_path", std::filesystem::absolute(s.project.path()).string()},
                {"read_only", s.project.is_read_only()},
                {"image",
                 {{"size", {grid.size.i, grid.size.j, grid.size.k}},
@@ -103,6 +116,7 @@ std::string greeting(SessionState& s, const json& more) {
                  {"time", s.image.times.own()},
                  {"notes", s.notes}}},
                {"identity", to_json(s.image.identity)},
+               {"frame_of_reference_uid", s.image.frame_of_reference_uid},
                {"images", further_images_json(s)},
                {"has_dicom", s.image.series.has_value()},
                {"window", {{"center", s.image.window.center}, {"width", s.image.window.width}}},
@@ -145,12 +159,17 @@ json surface_event(const SessionState& s, const Surface& surface) {
     if (!has_full_resolution(surface.stage)) return event;
     if (surface.image.verdict != ImageVerdict::none)
         event["image"] = {{"verdict", std::string(name(surface.image.verdict))}, {"text", sentence(surface.image)}};
-    event["volume_ml"] = surface.volume_ml;
+    const SurfaceEvidence evidence = evidence_of(s, surface);
+    event["volume_ml"] = evidence.volume_mm3 / 1000;
+    if (auto sentence = cut_by_image(surface.volume_ml, evidence.volume_mm3 / 1000)) event["warnings"].push_back(*sentence);
+    event["faults"] = to_json(surface.faults);
+    for (const EdgeBeside& one : surface.edges_beside)
+        event["edges_beside"].push_back({{"contour", one.contour}, {"offset_mm", one.offset_mm}});
     event["residual"] = {{"max_mm", surface.residual.max_mm},
                          {"rms_mm", surface.residual.rms_mm},
                          {"contour", surface.worst_contour},
                          {"at", to_json(surface.worst_at)}};
-    event["uncertainty"] = to_json(surface_uncertainty(evidence_of(s, surface)));
+    event["uncertainty"] = to_json(surface_uncertainty(evidence));
     return event;
 }
 

@@ -11,6 +11,7 @@
 #include "viewer/model/model_json.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/events.h"
+#include "viewer/surfaces/clipped_volume.h"
 
 // Where to draw next, and what is proposed there.
 
@@ -71,7 +72,8 @@ json outline_of(SessionState& s, const Members& m) {
     const double most_mm = kMostSlicesApart * std::max({spacing.x, spacing.y, spacing.z});
     for (Polyline& line : proposed_lines(*found->second->mesh, plane)) {
         const DrawnContour* beside = snaps ? neighbour_of(line.points, structure, plane, now, most_mm) : nullptr;
-        if (beside) line.points = thinned(snapped_line(line.points, plane, beside->points, beside->plane, *s.image.voxels));
+        if (beside)
+            line.points = thinned(snapped_line({line.points, plane}, {beside->points, beside->plane}, *s.image.voxels));
         lines.push_back(to_json(line.points));
     }
     return {{"lines", std::move(lines)}};
@@ -108,6 +110,7 @@ SurfaceEvidence evidence_of(const SessionState& s, const Surface& surface) {
     SurfaceEvidence evidence = *surface.evidence;
     const Vec3 spacing = s.image.voxels->grid.spacing_mm();
     evidence.voxel_mm = std::min({spacing.x, spacing.y, spacing.z});
+    evidence.volume_mm3 = volume_within_mm3(*surface.mesh, s.image.voxels->grid);
     return evidence;
 }
 

@@ -21,7 +21,8 @@ namespace kontur::viewer {
 struct ImportReply {
     std::vector<Id> structures;
     std::vector<std::string> doubts;
-    std::vector<std::string> notes;  ///< what was left out, or had to be decided
+    std::vector<std::string> notes;    ///< what was left out, or had to be decided
+    std::vector<TracedMask> traced{};  ///< of a preview, and nothing has changed
 };
 
 /// What is told of a surface's points besides where they are.
@@ -57,8 +58,9 @@ std::string drawings_reply(const SessionState& s, const std::stop_token& stop);
 ImportReply import_near(SessionState& s, const std::filesystem::path& file, const Upload& upload,
                         const std::stop_token& stop);
 
-/// One structure for each set, as one step of the history.
-std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets);
+/// One structure for each set, as one step of the history. A label value that another structure has is left out.
+std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,
+                               const LabelValues& values = {});
 /// A new project's first structures, before its history.
 void begin_with(SessionState& s, const std::vector<ContourSet>& sets);
 /// Shows it beside the project's own image, in place of the one that was; kept with the project. Throws as

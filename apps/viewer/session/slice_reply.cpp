@@ -153,34 +153,42 @@ json in_pixels(const std::vector<std::vector<Vec3>>& lines, const Reslice& raste
     return runs;
 }
 
+/// What of lines and points goes into a slice's reply.
+struct SliceLines {
+    const Reslice& raster;
+    double thickness_mm;
+    json& head;
+    PixelPoints lines{raster}, dots{raster};
+};
+
 /// Lines of the visible surfaces; points of the visible contours that cross the plane, names of those that lie in it.
-void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const Surface>>& surfaces, const Reslice& raster,
-                  double thickness_mm, json& head, PixelPoints& lines, PixelPoints& dots) {
+void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const Surface>>& surfaces, SliceLines& slice) {
+    const Plane& plane = slice.raster.plane;
     const auto is_visible = [&](Id id) { return state.structures.contains(id) && state.structures.at(id).visible; };
     for (const auto& [id, surface] : surfaces) {
         if (!is_visible(id) || !surface->mesh) continue;
         const auto runs_of = [&](const TriangleMesh& mesh) {
             json runs = json::array();
-            for (const Polyline& line : outline(mesh, raster.plane)) {
-                runs.push_back(lines.add(line.points));
+            for (const Polyline& line : outline(mesh, plane)) {
+                runs.push_back(slice.lines.add(line.points));
                 runs.back()["closed"] = line.closed;
             }
             return runs;
         };
-        json shown{{"structure", id}, {"revision", surface->revision}, {"lines", runs_of(*surface->mesh)}};
-        if (surface->without_image) shown["without_image"] = runs_of(*surface->without_image);
-        head["outlines"].push_back(std::move(shown));
+        json lines{{"structure", id}, {"revision", surface->revision}, {"lines", runs_of(*surface->mesh)}};
+        if (surface->without_image) lines["without_image"] = runs_of(*surface->without_image);
+        slice.head["outlines"].push_back(std::move(lines));
     }
     for (const auto& [id, contour] : state.contours) {
         if (!contour->visible || !is_visible(contour->structure)) continue;
-        if (lies_in(*contour, raster.plane, thickness_mm)) {
-            head["contours"].push_back(id);
+        if (lies_in(*contour, plane, slice.thickness_mm)) {
+            slice.head["contours"].push_back(id);
             continue;
         }
-        const std::vector<Vec3> points = crossings(as_contour(*contour), raster.plane);
+        const std::vector<Vec3> points = crossings(as_contour(*contour), plane);
         if (points.empty()) continue;
-        head["crossings"].push_back(dots.add(points));
-        head["crossings"].back()["contour"] = id;
+        slice.head["crossings"].push_back(slice.dots.add(points));
+        slice.head["crossings"].back()["contour"] = id;
     }
 }
 
@@ -209,10 +217,8 @@ std::string slice_reply(SessionState& s, std::string_view text) {
         {"height", request.raster.height},
         {"letters", {{"left", letters.left}, {"right", letters.right}, {"top", letters.top}, {"bottom", letters.bottom}}}};
     head["outlines"] = head["crossings"] = head["contours"] = json::array();
-    PixelPoints lines(request.raster), dots(request.raster);
-    if (request.outlines)
-        add_outlines(s.state(), s.surfaces.all(), request.raster,
-                     slice_step_mm(s.image.voxels->grid, request.raster.plane.normal), head, lines, dots);
+    SliceLines slice{request.raster, slice_step_mm(s.image.voxels->grid, request.raster.plane.normal), head};
+    if (request.outlines) add_outlines(s.state(), s.surfaces.all(), slice);
     if (!image) head["gone"] = true;
     const SentPixels sent = image ? sent_pixels(image->grid, request) : SentPixels{};
     CodedValues coded;
@@ -222,8 +228,8 @@ std::string slice_reply(SessionState& s, std::string_view text) {
         head["samples"] = to_json(*sent.samples);
     }
     BinaryReply reply(std::move(head));
-    reply.add("outline_points", lines.numbers());
-    reply.add("crossing_points", dots.numbers());
+    reply.add("outline_points", slice.lines.numbers());
+    reply.add("crossing_points", slice.dots.numbers());
     if (sent.samples) reply.add<std::uint16_t>("values", coded.codes);
     if (sent.shades) reply.add<std::uint8_t>("pixels", shades(*image, request));
     return reply.bytes();

@@ -9,7 +9,9 @@
 
 #include "kontur/base/error.h"
 #include "viewer/model/file_names.h"
+#include "viewer/model/label_values.h"
 #include "viewer/model/model_json.h"
+#include "viewer/model/names.h"
 #include "viewer/model/single_points.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/history.h"
@@ -25,12 +27,15 @@ using nlohmann::json;
 constexpr std::size_t kLongestName = 100;                ///< of imports
 constexpr std::size_t kMostPointsOfProject = 2'000'000;  ///< of imports: a page is told all of them at once
 
-/// PageJson apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).
-constexpr std::array kColors{"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#d55e00", "#cc79a7"};
+/// The first six are told apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones
+/// left out). Each of the others lies as far as it can from those before it in OKLab (Ottosson 2020), none of them dark.
+constexpr std::array kColors{"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#d55e00", "#cc79a7", "#8040ff", "#ff20ff",
+                             "#20ff20", "#20ffe0", "#ffc0ff", "#c020a0", "#80c020", "#ff2060", "#2080ff", "#a0c0a0",
+                             "#ffe0c0", "#4080a0", "#c080ff", "#808020", "#8060c0", "#ffa0a0", "#a0e0ff", "#a06060"};
 
 /// A file's name for a structure: whole characters of UTF-8.
 std::string name_from(const std::string& text) {
-    std::string name = parsed(to_text(text)).get<std::string>();
+    std::string name = plain_text(parsed(to_text(text)).get<std::string>());
     if (name.size() <= kLongestName) return name;
     std::size_t end = kLongestName;
     while (end > 0 && (name[end] & 0xc0) == 0x80) --end;
@@ -65,28 +70,56 @@ std::optional<Structure> placeholder(const State& state) {
 json add_structure(SessionState& s, const Members& m) {
     Structure structure;
     structure.name = m.has("name") ? m.text("name", kMostNameBytes) : free_name(s.project.state());
+    check_name(structure.name);
     structure.color = m.has("color") ? m.color("color") : next_color(s.project.state());
     structure.id = s.project.new_id();
     commit(s, {"Add " + structure.name, {{structure.id, {}, structure}}, {}});
     return {{"structure", to_json(structure)}};
 }
 
+void check_label_is_free(const State& state, const Structure& structure) {
+    if (!structure.label_value) return;
+    if (const Structure* const owner = owner_of_label(state, *structure.label_value, structure.id))
+        throw Error(ErrorKind::invalid_input, fmt::format("{} has the label value {} already; give it another one first",
+                                                          owner->name, *structure.label_value));
+}
+
 json set_structure(SessionState& s, const Members& m) {
     const Structure before = structure_of(s.project.state(), m.id("id"));
     Structure after = before;
     if (m.has("name")) after.name = m.text("name", kMostNameBytes);
+    if (m.has("name")) check_name(after.name);
     if (m.has("color")) after.color = m.color("color");
     after.visible = m.flag_or("visible", after.visible);
     if (m.has("empty_planes")) after.empty_planes = m.planes("empty_planes");
     if (m.has("smoothing")) after.smoothing = m.smoothing("smoothing");
+    if (m.has("label_value")) after.label_value = m.label_value("label_value");
+    check_label_is_free(s.project.state(), after);
     std::string label = "Show or hide " + after.name;
     if (after.empty_planes != before.empty_planes) label = fmt::format("Nothing of {} in a plane", after.name);
     if (after.empty_planes.size() < before.empty_planes.size()) label = "Forget empty planes of " + after.name;
     if (after.smoothing != before.smoothing) label = "Smoothing of " + after.name;
+    if (after.label_value != before.label_value) label = "Label value of " + after.name;
     if (after.color != before.color) label = "Colour " + after.name;
     if (after.name != before.name) label = "Rename " + before.name;
     commit(s, {label, {{after.id, before, after}}, {}});
     return {{"structure", to_json(after)}};
+}
+
+/// This one is seen and no other; where that is so already, all are.
+json show_only(SessionState& s, const Members& m) {
+    const Structure chosen = structure_of(s.project.state(), m.id("id"));
+    const auto& all = s.project.state().structures;
+    const bool is_alone =
+        std::ranges::all_of(all, [&](const auto& one) { return one.second.visible == (one.first == chosen.id); });
+    Commit step{is_alone ? "Show all structures" : "Show only " + chosen.name, {}, {}};
+    for (const auto& [id, before] : all) {
+        Structure after = before;
+        after.visible = is_alone || id == chosen.id;
+        if (after != before) step.structures.push_back({id, before, after});
+    }
+    commit(s, step);
+    return json::object();
 }
 
 json remove_structure(SessionState& s, const Members& m) {
@@ -98,14 +131,15 @@ json remove_structure(SessionState& s, const Members& m) {
     return json::object();
 }
 
-Commit new_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets) {
+Commit new_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,
+                      const LabelValues& values) {
     Commit added{label, {}, {}};
     State state = s.project.state();
     if (const auto unused = placeholder(state)) {
         added.structures.push_back({unused->id, unused, {}});
         state.structures.clear();
     }
-    std::size_t points = 0;
+    std::size_t points = 0, place = 0;
     for (const auto& [id, contour] : state.contours) points += contour->points.size();
     for (const ContourSet& set : sets) {
         Structure structure{s.project.new_id(), name_from(set.name), next_color(state), true, set.empty_planes};
@@ -116,6 +150,9 @@ Commit new_structures(SessionState& s, const std::string& label, const std::vect
         structure.attributes = set.attributes;
         if (const auto& color = std::exchange(structure.attributes.color, {})) structure.color = color_text(*color);
         if (structure.name.empty()) structure.name = free_name(state);
+        if (const auto value = values.find(place++);
+            value != values.end() && !owner_of_label(state, value->second, structure.id))
+            structure.label_value = value->second;
         state.structures[structure.id] = structure;
         added.structures.push_back({structure.id, {}, structure});
         for (const Contour& contour : set.contours) {
@@ -135,13 +172,16 @@ Commit new_structures(SessionState& s, const std::string& label, const std::vect
 }  // namespace
 
 Calls structure_calls() {
-    return {
-        {"structure.add", {add_structure}}, {"structure.set", {set_structure}}, {"structure.remove", {remove_structure}}};
+    return {{"structure.add", {add_structure}},
+            {"structure.set", {set_structure}},
+            {"structure.show_only", {show_only}},
+            {"structure.remove", {remove_structure}}};
 }
 
-std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets) {
+std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,
+                               const LabelValues& values) {
     const std::scoped_lock lock(s.mutex);
-    const Commit added = new_structures(s, label, sets);
+    const Commit added = new_structures(s, label, sets, values);
     clear_draft(s);
     s.project.commit(added);
     tell_changes(s, added);
@@ -156,7 +196,7 @@ std::vector<Id> add_structures(SessionState& s, const std::string& label, const 
 
 void begin_with(SessionState& s, const std::vector<ContourSet>& sets) {
     const std::scoped_lock lock(s.mutex);
-    const Commit first = new_structures(s, {}, sets);
+    const Commit first = new_structures(s, {}, sets, {});
     s.project.begin_with(first);
     for (const Change<Structure>& change : first.structures) s.surfaces.follow_later(surface_task(s, change.id));
 }

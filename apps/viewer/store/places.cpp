@@ -134,6 +134,13 @@ std::string kind_of(const fs::path& file) {
     return dicom_drawing(file) ? "drawing" : "dicom";
 }
 
+/// "~" and "~/scans" as a shell reads them.
+std::string without_tilde(const std::string& path) {
+    const char* home = std::getenv("HOME");
+    const bool is_of_home = path == "~" || path.starts_with("~/");
+    return is_of_home && home ? home + path.substr(1) : path;
+}
+
 json entry_json(const Place& place) { return {{"name", place.name}, {"path", place.path.string()}}; }
 
 json file_json(const Place& file, const std::string& kind) {
@@ -171,7 +178,11 @@ Places::Places(const std::vector<Place>& places) {
     }
 }
 
-fs::path Places::resolved(const std::string& path) const {
+fs::path Places::resolved(const std::string& typed) const {
+    if (typed.find('\0') != std::string::npos)
+        throw Error(ErrorKind::invalid_input,
+                    "the path holds a NUL character, which no file's name can. Type the path again");
+    const std::string path = without_tilde(typed);
     std::error_code error;
     const fs::path found = fs::canonical(path, error);
     // Whether something is there is told of places only.
@@ -179,8 +190,11 @@ fs::path Places::resolved(const std::string& path) const {
     const bool is_inside = std::ranges::any_of(
         places_, [&](const Place& place) { return is_below(place.path, way) && !is_hidden_below(place.path, way); });
     if (!fs::path(path).is_absolute() || !is_inside)
-        throw Error(ErrorKind::invalid_input, fmt::format("{} lies outside of the folders that this page may open", path));
-    if (found.empty()) throw Error(ErrorKind::io, fmt::format("cannot read {}: it does not exist", path));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{0} lies outside of the folders that this page may open. To open it here, "
+                                "start kontur with it: kontur open {0}",
+                                path));
+    if (found.empty()) throw PathMissing(ErrorKind::io, fmt::format("cannot read {}: it does not exist", path));
     return found;
 }
 

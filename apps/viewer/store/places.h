@@ -6,7 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "kontur/base/error.h"
+
 namespace kontur::viewer {
+
+/// There is nothing at a path within the places.
+class PathMissing : public Error {
+public:
+    using Error::Error;
+};
 
 /// A folder that a page may start from.
 struct Place {

@@ -11,6 +11,7 @@
 #include "kontur/sampling/sample_surface.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/view/outline.h"
+#include "viewer/model/stage_words.h"
 
 namespace kontur::viewer {
 namespace {
@@ -76,6 +77,7 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     surface.worst_at = worst_point(task.set.contours[surface.residual.worst_contour], update.surface.function);
     const std::vector<Crossing> crossings = find_crossings(task.set);
     surface.conflicts = conflicts(task, crossings);
+    surface.faults = surface_faults(update.surface.section_check, task.ids);
     surface.evidence = std::make_shared<const SurfaceEvidence>(
         gather_evidence(sample_surface(*surface.mesh, update.surface.function), task.set,
                         {.volume_mm3 = 1000 * surface.volume_ml,
@@ -244,10 +246,12 @@ void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update
     SurfaceTask task;
     Alone known;
     bool is_held_back = false;
+    std::shared_ptr<const Image> image;
     {
         const std::scoped_lock lock(mutex_);
         Follower& follower = followers_[structure];
         if (edit <= follower.edits_before) return;
+        image = image_;
         auto& tasks = follower.tasks;
         tasks.erase(tasks.begin(), tasks.lower_bound(edit));
         task = tasks.at(edit);
@@ -256,6 +260,7 @@ void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update
     }
     Alone alone = heard(task, update, std::move(known));
     Surface& surface = alone.surface;
+    if (image && surface.stage == SurfaceStage::finished) surface.edges_beside = edges_beside(task.set, task.ids, *image);
     const bool is_final = update.kind != EditorUpdate::Kind::preview && !update.asks_image;
     if (is_final && hand_over(task, alone)) return;
     if (has_full_resolution(surface.stage) && surface.revision == 0 && !is_held_back) {
@@ -334,7 +339,7 @@ void Surfaces::show_progress(Id structure, std::uint64_t edit, const EditorUpdat
         if (edit <= follower.edits_before || (follower.stage == update.stage && follower.tenths == tenths)) return;
         follower.stage = update.stage;
         follower.tenths = tenths;
-        text = fmt::format("{}: {}", follower.tasks.at(edit).set.name, update.stage);
+        text = fmt::format("{}: {}", follower.tasks.at(edit).set.name, words_of_stage(update.stage));
     }
     listener_.status(text, tenths / 10.0);
 }

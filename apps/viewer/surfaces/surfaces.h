@@ -18,6 +18,8 @@
 #include "kontur/sureness/surface_evidence.h"
 #include "viewer/model/model.h"
 #include "viewer/surfaces/border_sharing.h"
+#include "viewer/surfaces/edges_beside.h"
+#include "viewer/surfaces/section_faults.h"
 
 namespace kontur::viewer {
 
@@ -66,6 +68,8 @@ struct Surface {
     std::vector<LinePair> near_lines;
     std::vector<Conflict> conflicts;  ///< the largest first; known when finished, and when there is no surface
     // Known when finished:
+    std::vector<SurfaceFault> faults;
+    std::vector<EdgeBeside> edges_beside;  ///< none where no image is asked
     double volume_ml = 0;
     Residual residual;
     Id worst_contour = 0;  ///< where the residual is largest

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kontur/base/parallel.h"
+
 namespace kontur {
 namespace {
 
@@ -15,18 +17,21 @@ class Envelope {
 public:
     explicit Envelope(std::size_t most) { parabolas_.reserve(most); }
 
-    /// Replaces `count` squared distances, `step` apart, by their least sums with squared distances along the line.
-    void apply(float* squared, std::uint32_t* nearest, std::size_t count, std::size_t step) {
+    /// Replaces `count` squared distances, `step` apart in memory and `spacing` in space, by their least sums with squared
+    /// distances along the line.
+    void apply(float* squared, std::uint32_t* nearest, std::size_t count, std::size_t step, double spacing) {
         parabolas_.clear();
         for (std::size_t q = 0; q < count; ++q)
-            if (squared[q * step] != kFar) add({static_cast<double>(q), 0, squared[q * step], nearest[q * step]});
+            if (squared[q * step] != kFar)
+                add({static_cast<double>(q) * spacing, 0, squared[q * step], nearest[q * step]});
         if (parabolas_.empty()) return;
         std::size_t at = 0;
-        for (std::size_t x = 0; x < count; ++x) {
-            while (at + 1 < parabolas_.size() && parabolas_[at + 1].from < static_cast<double>(x)) ++at;
-            const double apart = static_cast<double>(x) - parabolas_[at].place;
-            squared[x * step] = static_cast<float>(apart * apart + parabolas_[at].value);
-            nearest[x * step] = parabolas_[at].nearest;
+        for (std::size_t n = 0; n < count; ++n) {
+            const double x = static_cast<double>(n) * spacing;
+            while (at + 1 < parabolas_.size() && parabolas_[at + 1].from < x) ++at;
+            const double apart = x - parabolas_[at].place;
+            squared[n * step] = static_cast<float>(apart * apart + parabolas_[at].value);
+            nearest[n * step] = parabolas_[at].nearest;
         }
     }
 
@@ -54,24 +59,34 @@ private:
 
 }  // namespace
 
-NearestMarked nearest_marked(const Index3& size, std::span<const std::uint8_t> marked) {
+NearestMarked nearest_marked(const Index3& size, const Vec3& spacing, std::span<const std::uint8_t> marked,
+                             const Work& work) {
     NearestMarked found{std::vector<float>(marked.size()), std::vector<std::uint32_t>(marked.size())};
     for (std::size_t n = 0; n < marked.size(); ++n) {
-        found.steps[n] = marked[n] ? 0 : kFar;
+        found.distances[n] = marked[n] ? 0 : kFar;
         found.nearest[n] = static_cast<std::uint32_t>(n);
     }
     const auto ni = static_cast<std::size_t>(size.i), nj = static_cast<std::size_t>(size.j),
                nk = static_cast<std::size_t>(size.k);
-    Envelope envelope(std::max({ni, nj, nk}));
-    const auto apply = [&](std::size_t first, std::size_t count, std::size_t step) {
-        envelope.apply(&found.steps[first], &found.nearest[first], count, step);
+    // Lines that lie beside each other in memory are handled by one thread, one after the other.
+    const auto along = [&](std::size_t lines, std::size_t count, std::size_t step, double apart, const auto& first) {
+        parallel_for(static_cast<std::int64_t>(lines), 64, work, [&](std::int64_t begin, std::int64_t end) {
+            Envelope envelope(count);
+            for (auto line = static_cast<std::size_t>(begin); line < static_cast<std::size_t>(end); ++line)
+                envelope.apply(&found.distances[first(line)], &found.nearest[first(line)], count, step, apart);
+        });
     };
-    for (std::size_t row = 0; row < nj * nk; ++row) apply(row * ni, ni, 1);
-    for (std::size_t k = 0; k < nk; ++k)
-        for (std::size_t i = 0; i < ni; ++i) apply(k * ni * nj + i, nj, ni);
-    for (std::size_t column = 0; column < ni * nj; ++column) apply(column, nk, ni * nj);
-    for (float& steps : found.steps) steps = std::sqrt(steps);
+    along(nj * nk, ni, 1, spacing.x, [&](std::size_t line) { return line * ni; });
+    along(ni * nk, nj, ni, spacing.y, [&](std::size_t line) { return line / ni * ni * nj + line % ni; });
+    along(ni * nj, nk, ni * nj, spacing.z, [&](std::size_t line) { return line; });
+    for (float& distance : found.distances) distance = std::sqrt(distance);
     return found;
+}
+
+NearestMarked nearest_marked(const Index3& size, std::span<const std::uint8_t> marked) {
+    Work alone;
+    alone.threads = 1;
+    return nearest_marked(size, {1, 1, 1}, marked, alone);
 }
 
 }  // namespace kontur

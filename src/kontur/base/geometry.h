@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -36,6 +37,9 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 inline double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 inline double distance(const Vec3& a, const Vec3& b) { return norm(a - b); }
+/// The least and the largest of the three numbers.
+inline double smallest(const Vec3& a) { return a.x < a.y ? (a.x < a.z ? a.x : a.z) : (a.y < a.z ? a.y : a.z); }
+inline double largest(const Vec3& a) { return a.x > a.y ? (a.x > a.z ? a.x : a.z) : (a.y > a.z ? a.y : a.z); }
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 /// Distance of `p` from the segment between `a` and `b`, which may coincide.
@@ -59,6 +63,12 @@ struct Index3 {
 
     friend bool operator==(const Index3&, const Index3&) = default;
 };
+
+/// The voxel at an offset into an array of `size` with i fastest.
+inline Index3 index_at(std::size_t offset, const Index3& size) {
+    const auto n = static_cast<std::int64_t>(offset);
+    return {n % size.i, n / size.i % size.j, n / (size.i * size.j)};
+}
 
 /// An axis-aligned box in mm; default-constructed it is empty and grows by `extend`.
 struct Box3 {

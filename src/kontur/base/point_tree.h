@@ -27,34 +27,42 @@ public:
     /// are near but do not count. Infinity when there are none.
     template <class Cost>
     double least(const Vec3& p, const Cost& cost) const noexcept {
-        double found = std::numeric_limits<double>::infinity();
-        search(0, points_.size(), {}, p, cost, found);
-        return found;
+        Query<Cost> query{p, cost};
+        search(0, points_.size(), {}, query);
+        return query.least;
     }
 
 private:
     static constexpr std::size_t kLeafSize = 8;  // fewer points are faster looked through than split
 
+    template <class Cost>
+    struct Query {
+        Vec3 place;
+        const Cost& cost;
+        double least = std::numeric_limits<double>::infinity();  ///< of the points so far
+
+        void offer(const Vec3& point) { least = std::min(least, cost(point - place)); }
+    };
+
     void build(std::size_t begin, std::size_t end);
 
-    /// `to_cell` runs from the cell of [begin, end) to p, axis by axis; 0 where p is level with the cell.
+    /// `to_cell` runs from the cell of [begin, end) to the place, axis by axis; 0 where it is level with the cell.
     template <class Cost>
-    void search(std::size_t begin, std::size_t end, const Vec3& to_cell, const Vec3& p, const Cost& cost,
-                double& found) const noexcept {
+    void search(std::size_t begin, std::size_t end, const Vec3& to_cell, Query<Cost>& query) const noexcept {
         if (end - begin <= kLeafSize) {
-            for (std::size_t i = begin; i < end; ++i) found = std::min(found, cost(points_[i] - p));
+            for (std::size_t i = begin; i < end; ++i) query.offer(points_[i]);
             return;
         }
         const std::size_t middle = begin + (end - begin) / 2;
         const int axis = split_axis_[middle];
-        const double beyond = p[axis] - points_[middle][axis];
+        const double beyond = query.place[axis] - points_[middle][axis];
         const bool below = beyond < 0;
-        search(below ? begin : middle + 1, below ? middle : end, to_cell, p, cost, found);
-        found = std::min(found, cost(points_[middle] - p));
+        search(below ? begin : middle + 1, below ? middle : end, to_cell, query);
+        query.offer(points_[middle]);
         Vec3 to_far_cell = to_cell;
         to_far_cell[axis] = beyond;
-        if (dot(to_far_cell, to_far_cell) < found)
-            search(below ? middle + 1 : begin, below ? end : middle, to_far_cell, p, cost, found);
+        if (dot(to_far_cell, to_far_cell) < query.least)
+            search(below ? middle + 1 : begin, below ? end : middle, to_far_cell, query);
     }
 
     std::vector<Vec3> points_;              ///< of [begin, end) the middle one splits; smaller ones lie before it

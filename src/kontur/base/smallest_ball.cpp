@@ -54,14 +54,14 @@ const Vec3& farthest_from(const Vec3& center, std::span<const Vec3> points) {
 }
 
 /// What holds a ball: points on its surface.
-struct Held {
+struct SupportedBall {
     Ball3 ball;
     std::vector<Vec3> support;
 };
 
 /// The smallest ball around a support and one point outside of its ball, which will be on the new one's surface.
-Held hold(const std::vector<Vec3>& support, const Vec3& outside) {
-    Held best;
+SupportedBall hold(const std::vector<Vec3>& support, const Vec3& outside) {
+    SupportedBall best;
     for (unsigned subset = 0; subset < 1U << support.size(); ++subset) {
         std::vector<Vec3> chosen{outside};
         for (std::size_t i = 0; i < support.size(); ++i)
@@ -84,18 +84,18 @@ Ball3 smallest_ball(std::span<const Vec3> points) {
     const Vec3 origin = points[0];
     std::vector<Vec3> from_origin(points.size());
     std::transform(points.begin(), points.end(), from_origin.begin(), [&](const Vec3& p) { return p - origin; });
-    Held held{{{}, 0}, {{}}};
+    SupportedBall current{{{}, 0}, {{}}};
     for (int pass = 0; pass < kMostPasses; ++pass) {
-        const Vec3& farthest = farthest_from(held.ball.center, from_origin);
-        if (contains(held.ball, farthest)) break;
-        Held grown = hold(held.support, farthest);
-        if (!(grown.ball.radius > held.ball.radius)) {  // rounding
-            held.ball.radius = distance(held.ball.center, farthest);
+        const Vec3& farthest = farthest_from(current.ball.center, from_origin);
+        if (contains(current.ball, farthest)) break;
+        SupportedBall grown = hold(current.support, farthest);
+        if (!(grown.ball.radius > current.ball.radius)) {  // rounding
+            current.ball.radius = distance(current.ball.center, farthest);
             break;
         }
-        held = std::move(grown);
+        current = std::move(grown);
     }
-    return {origin + held.ball.center, held.ball.radius};
+    return {origin + current.ball.center, current.ball.radius};
 }
 
 }  // namespace kontur

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "kontur/base/parallel.h"
+#include "kontur/bounds/between_bounds.h"
 #include "kontur/bounds/empty_planes.h"
 #include "kontur/bounds/end_bounds.h"
 #include "kontur/bounds/plane_bounds.h"
@@ -34,6 +35,8 @@ Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
                             "object there is a guess from its width",
                             regions[r].section.contours.front() + 1));
     }
+    const std::vector<Bound> between = between_bounds(regions);
+    result.bounds.insert(result.bounds.end(), between.begin(), between.end());
     for (const Plane& empty : planes.set.empty_planes) {
         const std::vector<Bound> some = empty_plane_bounds(planes, regions, empty);
         result.bounds.insert(result.bounds.end(), some.begin(), some.end());

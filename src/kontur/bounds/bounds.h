@@ -18,8 +18,9 @@ struct Bound {
     Vec3 position;  ///< mm
     double least_mm = -std::numeric_limits<double>::infinity();
     double most_mm = std::numeric_limits<double>::infinity();
-    double noise_mm = 0;  ///< standard deviation
-    double extent = 1;    ///< in (0, 1], of the part of the drawing that it belongs to, over that of the whole (Extents)
+    double noise_mm = 0;   ///< standard deviation
+    bool by_side = false;  ///< it takes part only where f has the other sign than it, and then as the others do
+    double extent = 1;     ///< in (0, 1], of the part of the drawing that it belongs to, over that of the whole (Extents)
 };
 
 struct Bounds {
@@ -27,11 +28,11 @@ struct Bounds {
     std::vector<std::string> notes;  ///< a word on a thickness that is but a guess, contours counted from 1
 };
 
-/// What planes say of the object beside the lines. There are three sources: a drawn plane, which shows where the object is
-/// and is not (plane_bounds.h), a plane in which nothing of it is seen (empty_planes.h), and the end of the object beyond a
-/// plane after which nothing leads on (end_bounds.h). All follow continuously when planes are moved and turned, and move,
-/// turn and scale with the contours. Nothing is said between two parallel planes that both show the object. What the user
-/// declares (ends.h, clicks.h) and what holds of any drawing (far_bounds.h) are added as it is prepared.
+/// What planes say of the object beside the lines. There are four sources: a drawn plane, which shows where the object is
+/// and is not (plane_bounds.h), a plane in which nothing of it is seen (empty_planes.h), the end of the object beyond a
+/// plane after which nothing leads on (end_bounds.h), and the way of a tube between its rings (between_bounds.h). All follow
+/// continuously when planes are moved and turned, and move, turn and scale with the contours. What the user declares
+/// (ends.h, clicks.h) and what holds of any drawing (far_bounds.h) are added as it is prepared.
 Bounds find_bounds(const DrawnPlanes& planes, const Work& work = {});
 
 }  // namespace kontur

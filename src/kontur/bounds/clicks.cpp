@@ -27,9 +27,10 @@ std::optional<Conflict> conflict(const Vec3& point, Side side, const std::vector
     for (const Section& section : sections) {
         const Point2 at = section.plane.to_uv(point);
         if (side != Side::surface && section.contains(at) == (side == Side::interior)) continue;
-        const auto [clearance, position, outline] = section.nearest(at);
-        if (clearance < 2 * std::abs(section.plane.distance_to(point))) continue;
-        if (!worst || clearance > worst->clearance_mm) worst = Conflict{clearance, section.contours[outline]};
+        const Section::Nearest nearest = section.nearest(at);
+        if (nearest.distance < 2 * std::abs(section.plane.distance_to(point))) continue;
+        if (!worst || nearest.distance > worst->clearance_mm)
+            worst = Conflict{nearest.distance, section.contours[nearest.outline]};
     }
     return worst;
 }

@@ -17,6 +17,7 @@ constexpr double kTouched = 0.005, kReachedThrough = 0.02;  // of the ball's dia
 
 /// How far a contour reaches through a plane, in diameters of the ball: the lesser of both sides; 1 if it lies in the plane.
 double reach_through(const Contour& contour, const Plane& plane, double diameter_mm) {
+    if (contour.points.empty()) return 0;
     double above = 0, below = 0;
     for (const Vec3& p : contour.points) {
         const double off = plane.distance_to(p) / diameter_mm;
@@ -59,7 +60,7 @@ public:
         lattice.for_each_place([&](double x, double y) {
             const Vec3 place = center_ + x * u_ + y * v_;
             const double outside = outside_mm(place);
-            if (std::isfinite(outside)) bounds.push_back(lattice.outside(place, outside, belief));
+            if (std::isfinite(outside)) bounds.push_back(outside_bound(place, outside, lattice.step_mm(), belief));
         });
         return bounds;
     }

@@ -22,6 +22,7 @@ constexpr double kEdge = 2;         // heights from its outline a dome is as hig
 constexpr double kNoise = 0.05, kGuessNoise = 0.3;  // of the height
 constexpr double kGuess = 0.2;                      // belief in a height that is but a guess
 constexpr std::size_t kRimPoints = 40;              // per outline
+constexpr double kSeen = 1.3;       // heights to the border of the image that show an end; up to 1 it may lie beyond
 
 struct PlaneBefore {
     double distance;
@@ -85,8 +86,9 @@ public:
         const bool is_guess = end.belief < kGuess;
         double open = 0;  // where it is a guess, how surely nothing lies ahead, however near
         const auto add = [&](const Vec3& foot, double above, double most_mm) {
-            const double needed = left * (1 - led_on(foot, height));
-            if (is_guess) open = std::max(open, left * (1 - led_on(foot, planes_.tolerance_mm)));
+            const double seen = left * is_seen(foot, height);
+            const double needed = seen * (1 - led_on(foot, height));
+            if (is_guess) open = std::max(open, seen * (1 - led_on(foot, planes_.tolerance_mm)));
             if (needed > kLeastBelief)
                 bounds.push_back({.position = foot + above * up_, .most_mm = most_mm, .noise_mm = faded(noise, needed)});
         };
@@ -103,6 +105,11 @@ public:
     }
 
 private:
+    /// How surely the image goes on far enough to have shown an end over a place of the region.
+    double is_seen(const Vec3& foot, double height) const {
+        return planes_.image ? smooth_step(1, kSeen, planes_.image->border_ahead_mm(foot, up_) / height) : 1;
+    }
+
     /// How far contours of other directions lead on beyond the plane: less, the less they are tilted against it and the
     /// farther they lie beside the region.
     double reach_of_others() const {

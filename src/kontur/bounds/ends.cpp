@@ -80,45 +80,59 @@ double flare(const Continuation& below, const Contour& contour, const Vec3& rim)
     return std::clamp((below.next->contains(at) ? 1 : -1) * there.distance / *below.spacing, -kMostFlare, kMostFlare);
 }
 
+/// Where a flat end lies and how its rim is drawn.
+struct FlatEnd {
+    const Section& region;
+    const Continuation& below;  ///< what follows on the object's side
+    Vec3 up;                    ///< unit, out of the object
+    double edge_mm;             ///< from the rim to its copies
+    Vec3 beyond;                ///< from the plane to the lid
+};
+
 /// Two copies of the contour: one below the rim, which says how the wall goes on there, and one inside of it on the lid.
 /// Without them a smooth function, which has no edge, bulges on both sides of the rim.
-void append_rim(const Contour& contour, std::int32_t index, const Section& region, const Continuation& below, const Vec3& up,
-                double distance, const Vec3& beyond, Ends& ends) {
-    constexpr int kLeastSegments = 48;
+void append_rim(const Contour& contour, std::int32_t index, const FlatEnd& end, Ends& ends) {
     const Contour rim = subdivide(contour, kLeastSegments);
     const ContourOrientation orientation = orient(rim);
     // One ring after the other, each a line of its own: points that alternate between them cannot be thinned along their
     // way.
     for (std::size_t i = 0; i < rim.points.size(); ++i)
         ends.lids.push_back(
-            {.position = rim.points[i] + distance * (flare(below, contour, rim.points[i]) * orientation.normals[i] - up),
+            {.position =
+                 rim.points[i] + end.edge_mm * (flare(end.below, contour, rim.points[i]) * orientation.normals[i] - end.up),
              .inplane_normal = orientation.normals[i],
              .plane_normal = rim.plane.normal,
              .contour = index,
              .line = kBelowRim,
              .on_ring = true});
     for (std::size_t i = 0; i < rim.points.size(); ++i) {
-        const Vec3 inside = rim.points[i] - distance * orientation.normals[i];
-        const Point2 on_lid = region.plane.to_uv(inside);
-        if (region.contains(on_lid) && region.clearance(on_lid) > 0.9 * distance)
-            ends.lids.push_back(
-                {.position = inside + beyond, .inplane_normal = up, .contour = index, .line = kInsideRim, .on_ring = true});
+        const Vec3 inside = rim.points[i] - end.edge_mm * orientation.normals[i];
+        const Point2 on_lid = end.region.plane.to_uv(inside);
+        if (end.region.contains(on_lid) && end.region.clearance(on_lid) > 0.9 * end.edge_mm)
+            ends.lids.push_back({.position = inside + end.beyond,
+                                 .inplane_normal = end.up,
+                                 .contour = index,
+                                 .line = kInsideRim,
+                                 .on_ring = true});
     }
 }
 
-void append_flat(const DrawnPlanes& planes, const Section& region, const Continuation& below,
-                 const std::vector<Probe>& inside, double sign, Ends& ends) {
+/// `depth_mm`: of the deepest place in the region; `sign` says on which side of the plane the object ends.
+FlatEnd flat_end(const DrawnPlanes& planes, const Section& region, const Continuation& below, double depth_mm, double sign) {
     constexpr double kEdge = 0.1, kBeyond = 0.005;  // of the inscribed radius
     constexpr double kLeastBeyond = 0.5;  // of the tolerance for planes: f is not so exact that it tells less from its plane
-    const Vec3 up = sign * region.plane.normal,
-               beyond = std::max(kBeyond * deepest(inside), kLeastBeyond * planes.tolerance_mm) * up;
-    for (const std::size_t c : region.contours)
-        append_rim(planes.set.contours[c], static_cast<std::int32_t>(c), region, below, up, kEdge * deepest(inside), beyond,
-                   ends);
-    const auto contour = static_cast<std::int32_t>(region.contours.front());
+    const Vec3 up = sign * region.plane.normal;
+    return {region, below, up, kEdge * depth_mm, std::max(kBeyond * depth_mm, kLeastBeyond * planes.tolerance_mm) * up};
+}
+
+void append_flat(const ContourSet& set, const FlatEnd& end, const std::vector<Probe>& inside, Ends& ends) {
+    for (const std::size_t c : end.region.contours) append_rim(set.contours[c], static_cast<std::int32_t>(c), end, ends);
+    const auto contour = static_cast<std::int32_t>(end.region.contours.front());
     for (const Probe& probe : inside)
-        ends.lids.push_back(
-            {.position = region.plane.from_uv(probe.at) + beyond, .inplane_normal = up, .contour = contour, .line = kLid});
+        ends.lids.push_back({.position = end.region.plane.from_uv(probe.at) + end.beyond,
+                             .inplane_normal = end.up,
+                             .contour = contour,
+                             .line = kLid});
 }
 
 void append_dome(const Section& region, const std::vector<Probe>& inside, double sign, double height, Ends& ends) {
@@ -160,7 +174,7 @@ Ends find_ends(const DrawnPlanes& planes) {
             const double sign = -towards_rest;
             const Continuation& rest = towards_rest > 0 ? above : below;
             if (set.contours[c].end == ContourEnd::flat) {
-                append_flat(planes, region, rest, inside, sign, ends);
+                append_flat(set, flat_end(planes, region, rest, deepest(inside), sign), inside, ends);
                 continue;
             }
             const double widest = deepest(inside);

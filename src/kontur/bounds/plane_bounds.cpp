@@ -20,20 +20,61 @@ struct Outside {
     double belief;
 };
 
+/// A finer lattice over what is drawn in a plane and beside it: islands of an eighth of its width are seen.
+class Around {
+public:
+    Around(const Section& section, const SectionAxes& axes) {
+        // Across the section. 24 see islands of 8 mm2 that 16 do not in one drawing of 28, and the fit takes a fifth longer.
+        constexpr double kSteps = 16;
+        constexpr double kMargin = 0.25;  // of its width, on each side
+        Box2 box;
+        for (const Polygon2& outline : section.outlines)
+            for (const Point2& p : outline) box.extend(axes.from_plane(p));
+        const double width = std::max(box.high[0] - box.low[0], box.high[1] - box.low[1]);
+        step_mm_ = width / kSteps;
+        for (const std::size_t axis : {0u, 1u}) {
+            middle_[axis] = (box.low[axis] + box.high[axis]) / 2;
+            steps_[axis] = static_cast<int>(((box.high[axis] - box.low[axis]) / 2 + kMargin * width) / step_mm_);
+        }
+    }
+
+    double step_mm() const { return step_mm_; }
+
+    bool covers(const Point2& at) const {
+        return std::abs(at[0] - middle_[0]) <= steps_[0] * step_mm_ && std::abs(at[1] - middle_[1]) <= steps_[1] * step_mm_;
+    }
+
+    /// Symmetric about the middle: the axes' signs mean nothing.
+    template <class Visit>
+    void for_each_place(const Visit& visit) const {
+        for (int row = -steps_[1]; row <= steps_[1]; ++row)
+            for (int column = -steps_[0]; column <= steps_[0]; ++column)
+                visit(Point2{middle_[0] + column * step_mm_, middle_[1] + row * step_mm_});
+    }
+
+private:
+    double step_mm_ = 0;
+    Point2 middle_{};
+    int steps_[2] = {};
+};
+
 class PlaneBounds {
 public:
     PlaneBounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, std::size_t index)
-        : ball_(planes.ball), regions_(regions), own_(regions[index]), normal_(own_.section.plane.normal) {}
+        : image_(planes.image), ball_(planes.ball), regions_(regions), own_(regions[index]), normal_(own_.section.plane.normal) {}
 
     std::vector<Bound> find() const {
-        std::vector<Bound> bounds;
-        append_inside(bounds);
         const Plane& plane = own_.section.plane;
         const PlaneLattice lattice(ball_, plane.distance_to(ball_.center));
         const SectionAxes axes(own_.section);
+        const Around around(own_.section, axes);
+        std::vector<Bound> bounds;
+        append_inside(bounds);
+        around.for_each_place([&](const Point2& at) { append(axes.to_plane(at), around.step_mm(), bounds); });
         const Point2 center = axes.from_plane(plane.to_uv(ball_.center));
         lattice.for_each_place([&](double x, double y) {
-            append(axes.to_plane({center[0] + x, center[1] + y}), lattice, bounds);
+            if (const Point2 at{center[0] + x, center[1] + y}; !around.covers(at))
+                append(axes.to_plane(at), lattice.step_mm(), bounds);
         });
         return bounds;
     }
@@ -46,13 +87,23 @@ private:
                               .noise_mm = kInsideNoise * probe.depth});
     }
 
-    void append(const Point2& at, const PlaneLattice& lattice, std::vector<Bound>& bounds) const {
+    void append(const Point2& at, double step_mm, std::vector<Bound>& bounds) const {
         if (own_.search.contains(at)) return;
         const double clear = clearance(at);
-        if (clear < lattice.step_mm() / 4) return;
+        if (clear < step_mm / 4) return;
         const Vec3 place = own_.section.plane.from_uv(at);
+        if (is_beyond_cut(place)) return;
         const Outside outside = outside_of(place, clear);
-        if (outside.belief >= kLeastBelief) bounds.push_back(lattice.outside(place, outside.distance_mm, outside.belief));
+        if (outside.belief >= kLeastBelief)
+            bounds.push_back(outside_bound(place, outside.distance_mm, step_mm, outside.belief));
+    }
+
+    /// Whether a place lies beyond the image's border where that cuts what was drawn off: nothing was seen there.
+    bool is_beyond_cut(const Vec3& place) const {
+        if (!image_ || image_->contains(place)) return false;
+        const Vec3 border = image_->nearest(place);
+        const Point2 at = own_.section.plane.to_uv(border);
+        return own_.search.contains(at) || own_.search.clearance(at) < image_->voxel_mm();
     }
 
     /// A crossing hides as much around it as the lines are away from it.
@@ -103,6 +154,7 @@ private:
         return near;
     }
 
+    const std::optional<ImageBox>& image_;
     const Ball3& ball_;
     const std::vector<DrawnRegion>& regions_;
     const DrawnRegion& own_;

@@ -32,17 +32,16 @@ public:
                 if (std::hypot(row * step_mm_, column * step_mm_) <= extent_mm_) visit(column * step_mm_, row * step_mm_);
     }
 
-    /// f at a place that is known to lie so far outside: a quarter of that, since walls that stand oblique to the plane are
-    /// nearer than its lines.
-    Bound outside(const Vec3& place, double outside_mm, double belief) const {
-        return {.position = place,
-                .most_mm = -0.25 * outside_mm,
-                .noise_mm = faded(0.1 * std::max(outside_mm, step_mm_), belief)};
-    }
-
 private:
     double step_mm_, extent_mm_;
 };
+
+/// f at a place of a lattice that is known to lie so far outside: a quarter of that, since walls that stand oblique to the
+/// plane are nearer than its lines.
+inline Bound outside_bound(const Vec3& place, double outside_mm, double step_mm, double belief) {
+    return {
+        .position = place, .most_mm = -0.25 * outside_mm, .noise_mm = faded(0.1 * std::max(outside_mm, step_mm), belief)};
+}
 
 /// How far outside a place of one plane is, for each mm from what another plane shows of the object: beyond a parallel one
 /// the object may go on; from 30 degrees on the distance counts in full.

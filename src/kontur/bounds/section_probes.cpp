@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kontur/shape/box_tree.h"
+#include "kontur/shape/enclosed_area.h"
 
 namespace kontur {
 namespace {
@@ -27,19 +28,6 @@ Outline outline_along(const SectionAxes& axes, const Polygon2& polygon) {
     return outline;
 }
 
-/// The length of the rows inside of a line times their distance.
-double area_by_rows(const Polygon2& line) {
-    constexpr int kRows = 512;
-    Box2 box;
-    for (const Point2& p : line) box.extend(p);
-    const double row_mm = (box.high[1] - box.low[1]) / kRows;
-    if (!(row_mm > 0)) return 0;
-    double inside_mm = 0;
-    for (const std::vector<double>& row : row_crossings(line, box.low[1] + row_mm / 2, row_mm, kRows))
-        for (std::size_t i = 0; i + 1 < row.size(); i += 2) inside_mm += row[i + 1] - row[i];
-    return inside_mm * row_mm;
-}
-
 /// Whether that outline is the first but holes that encloses the place.
 bool belongs_to(const Section& section, const SectionSearch& search, std::size_t outline, const Point2& at) {
     std::size_t first = section.outlines.size();
@@ -50,12 +38,6 @@ bool belongs_to(const Section& section, const SectionSearch& search, std::size_t
 }
 
 }  // namespace
-
-double enclosed_area(const Polygon2& line) {
-    constexpr double kCrossesItself = 0.95;  // of what rows say, which is exact to a part in a thousand
-    const double by_signs = area(line), by_rows = area_by_rows(line);
-    return by_signs < kCrossesItself * by_rows ? by_rows : by_signs;
-}
 
 std::vector<double> areas_without_holes(const Section& section) {
     constexpr double kLeast = 1e-6;  // of what it encloses with them: holes may lie beside what they are cut from

@@ -27,10 +27,6 @@ struct Probe {
     std::size_t outline;  ///< the one around it, but for holes
 };
 
-/// What one line encloses by the even-odd rule, mm2. The signed area of a line that crosses itself is the difference of its
-/// lobes.
-double enclosed_area(const Polygon2& line);
-
 /// Of each outline what it encloses, mm2, without the holes in it; 0 for a hole.
 std::vector<double> areas_without_holes(const Section& section);
 

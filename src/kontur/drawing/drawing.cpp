@@ -114,6 +114,20 @@ void leave_out_spikes(ContourSet& set, double spike_tolerance_mm, std::vector<st
                                             " that run back along themselves, and enclose nothing, were left out");
 }
 
+/// Contours that are thinned begin elsewhere: the first points of all say so.
+Tidied thin_vast(ContourSet& set, std::vector<Vec3>& first_points, const TidyOptions& options) {
+    const std::vector<std::size_t> numbers = numbers_before(first_points, set);
+    const Tidied tidied = thin_vast(set, options);
+    for (std::size_t c = 0; c < set.contours.size(); ++c) first_points[numbers[c]] = set.contours[c].points.front();
+    return tidied;
+}
+
+/// Of different contours: those that were thinned have too few points to be thinned again.
+Tidied sum(const Tidied& a, const Tidied& b) {
+    return {a.spike_points + b.spike_points, a.thinned_contours + b.thinned_contours, a.thinned_points + b.thinned_points,
+            std::max(a.thinned_mm, b.thinned_mm)};
+}
+
 void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
     if (tidied.spike_points > 0)
         notes.push_back(counted(tidied.spike_points, "point") + (tidied.spike_points == 1
@@ -132,10 +146,13 @@ void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
 Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
     if (const std::size_t dropped = drop_duplicate_points(contours); dropped > 0)
         notes.push_back(counted(dropped, "repeated point") + (dropped == 1 ? " was left out" : " were left out"));
-    const std::vector<Vec3> first = first_points(contours);
+    std::vector<Vec3> first = first_points(contours);
     for (std::string& note : check_and_tidy(contours)) notes.push_back(std::move(note));
     const double drawn_mm = smallest_ball(contours).diameter();
     const TidyOptions tidy_options{1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm};
+    const std::size_t all_points = point_count(contours);
+    const Tidied vast = thin_vast(contours, first, tidy_options);
+    const std::size_t left_out = all_points - point_count(contours);
     leave_out_specks(contours, first, notes);
     leave_out_spikes(contours, tidy_options.spike_tolerance_mm, notes);
     const FillChanges changes = apply_fill_rule(contours, rule);
@@ -146,7 +163,8 @@ Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
     numbers = pick(numbers, make_one_line(contours, changes.near_lines));
     crossings = find_crossings(contours);
     tidied = contours;
-    note_tidied(tidy(tidied, tidy_options), notes);
+    points_drawn = point_count(contours) + left_out;
+    note_tidied(sum(vast, tidy(tidied, tidy_options)), notes);
     ball = smallest_ball(tidied);
 }
 

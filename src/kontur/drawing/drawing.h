@@ -21,7 +21,8 @@ struct Drawing {
     /// after all this.
     Drawing(ContourSet drawn, FillRule rule = FillRule::even_odd);
 
-    ContourSet contours;
+    ContourSet contours;                ///< those of very many points thinned (thin_vast)
+    std::size_t points_drawn = 0;       ///< of contours, with those that were left out by that
     std::vector<std::size_t> numbers;   ///< for each contour its index in what was drawn
     ContourSet tidied;                  ///< the same without spikes, and with no more points than the fit needs
     Ball3 ball;                         ///< the smallest one around the tidied contours and single points, mm

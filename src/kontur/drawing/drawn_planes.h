@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kontur/base/smallest_ball.h"
+#include "kontur/drawing/image_box.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {
@@ -18,6 +19,7 @@ struct DrawnPlanes {
     Ball3 ball;           ///< the smallest one around the set
     double tolerance_mm;  ///< planes less than this apart do not follow one another: 0.15 % of the ball's diameter
     std::vector<Section> sections;
+    std::optional<ImageBox> image{};  ///< that it was drawn on, where that is known
 
     struct Next {
         const Section* section;

@@ -3,40 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace kontur {
+
+InnerLines::InnerLines(const DrawnPlanes& planes) : planes_(planes), section_of_(planes.set.contours.size()) {
+    for (std::size_t s = 0; s < planes.sections.size(); ++s) {
+        searches_.emplace_back(planes.sections[s]);
+        for (const std::size_t c : planes.sections[s].contours) section_of_[c] = s;
+    }
+}
+
+bool InnerLines::has(std::size_t contour, const Vec3& place, const Vec3& across, double cleft_mm) const {
+    constexpr double kBeside = 0.01;  // of a cleft: walls are thicker
+    const std::optional<std::size_t> section = section_of_[contour];
+    if (!section) return false;
+    const auto shows = [&](double away_mm) {
+        return searches_[*section].contains(planes_.sections[*section].plane.to_uv(place + away_mm * across));
+    };
+    const bool here = shows(-kBeside * cleft_mm), there = shows(kBeside * cleft_mm);
+    if (here == there) return !here || (shows(cleft_mm) && shows(-cleft_mm));
+    return shows(here ? cleft_mm : -cleft_mm);
+}
+
 namespace {
-
-class InnerLines {
-public:
-    InnerLines(const DrawnPlanes& planes, double cleft_mm) : planes_(planes), cleft_mm_(cleft_mm) {
-        section_of_.resize(planes.set.contours.size());
-        for (std::size_t s = 0; s < planes.sections.size(); ++s) {
-            searches_.emplace_back(planes.sections[s]);
-            for (const std::size_t c : planes.sections[s].contours) section_of_[c] = s;
-        }
-    }
-
-    bool has(const BoundaryPoint& point) const {
-        constexpr double kBeside = 0.01;  // of a cleft: walls are thicker
-        if (point.contour == kNoContour || point.inplane_normal == Vec3{}) return false;
-        const std::optional<std::size_t> section = section_of_[static_cast<std::size_t>(point.contour)];
-        if (!section) return false;
-        const double cleft = point.extent * cleft_mm_;
-        const auto shows = [&](double outwards_mm) {
-            const Vec3 beside = point.position + outwards_mm * point.inplane_normal;
-            return searches_[*section].contains(planes_.sections[*section].plane.to_uv(beside));
-        };
-        return shows(-kBeside * cleft) ? shows(cleft) : !shows(kBeside * cleft);
-    }
-
-private:
-    const DrawnPlanes& planes_;
-    double cleft_mm_;
-    std::vector<std::optional<std::size_t>> section_of_;  ///< for each contour; none for open ones
-    std::vector<SectionSearch> searches_;
-};
 
 /// The borders of one ring, each as an open line. `begin` follows the last inner point before it.
 void append_borders(const std::vector<BoundaryPoint>& ring, const std::vector<bool>& is_inner,
@@ -67,7 +56,14 @@ void append_borders(const std::vector<BoundaryPoint>& ring, const std::vector<bo
 }  // namespace
 
 void leave_out_inner_lines(const DrawnPlanes& planes, double cleft_mm, std::vector<BoundaryPoint>& points) {
-    const InnerLines inner_lines(planes, cleft_mm);
+    const InnerLines inner_lines(planes);
+    const auto is_inner_line = [&](const BoundaryPoint& p) {
+        return p.on_ring && p.contour != kNoContour && p.inplane_normal != Vec3{} &&
+               inner_lines.has(static_cast<std::size_t>(p.contour), p.position, p.inplane_normal, p.extent * cleft_mm);
+    };
+    const auto is_cut = [&](const BoundaryPoint& p) {
+        return p.on_ring && p.contour != kNoContour && planes.image->is_border(p.position, p.inplane_normal);
+    };
     std::vector<BoundaryPoint> kept;
     for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
         std::vector<bool> is_inner;
@@ -75,11 +71,13 @@ void leave_out_inner_lines(const DrawnPlanes& planes, double cleft_mm, std::vect
             return p.on_ring && p.contour == points[begin].contour && p.line == points[begin].line;
         };
         do {
-            is_inner.push_back(points[end].on_ring && inner_lines.has(points[end]));
+            is_inner.push_back(is_inner_line(points[end]));
             ++end;
         } while (end < points.size() && is_of_line(points[begin]) && is_of_line(points[end]));
         const std::vector<BoundaryPoint> line(points.begin() + static_cast<std::ptrdiff_t>(begin),
                                               points.begin() + static_cast<std::ptrdiff_t>(end));
+        if (planes.image && 2 * std::ranges::count_if(line, is_cut) < std::ssize(line))
+            for (std::size_t i = 0; i < line.size(); ++i) is_inner[i] = is_inner[i] || is_cut(line[i]);
         if (std::ranges::find(is_inner, true) == is_inner.end()) kept.insert(kept.end(), line.begin(), line.end());
         else append_borders(line, is_inner, kept);
     }

@@ -12,8 +12,6 @@
 namespace kontur {
 namespace {
 
-constexpr int kLeastSegments = 48;
-
 /// The line, moved by that share of the way to the other one.
 void move_towards(const Contour& other, double share, Contour& line) {
     line = subdivide(line, std::max(kLeastSegments, static_cast<int>(other.points.size())));

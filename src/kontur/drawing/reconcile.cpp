@@ -30,7 +30,7 @@ std::vector<double> trust_by_contour(const std::vector<BoundaryPoint>& points) {
 }
 
 std::vector<std::vector<Doubt>> doubts_by_contour(std::span<const Crossing> crossings, const std::vector<double>& trusts,
-                                                  const ReconcileOptions& options) {
+                                                  double offset_mm, const ReconcileOptions& options) {
     std::vector<std::vector<Doubt>> doubts;
     const auto add = [&](std::size_t contour, const Doubt& doubt) {
         if (doubts.size() <= contour) doubts.resize(contour + 1);
@@ -39,7 +39,7 @@ std::vector<std::vector<Doubt>> doubts_by_contour(std::span<const Crossing> cros
     const auto trust = [&](std::size_t contour) { return contour < trusts.size() ? trusts[contour] : 1.0; };
     for (const Crossing& crossing : crossings) {
         if (!crossing.matched || !(crossing.disagreement_mm > 0)) continue;
-        const double relative = crossing.disagreement_mm / options.offset_mm;
+        const double relative = crossing.disagreement_mm / offset_mm;
         const auto doubt = [&](double share) {
             return Doubt{crossing.position, crossing.other_position, options.reach * crossing.disagreement_mm,
                          share * options.strength * relative * relative};
@@ -80,12 +80,15 @@ std::string_view name(Conflicts conflicts) noexcept {
     return "?";
 }
 
-void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, const ReconcileOptions& options) {
-    check_above_0("the offset to reconcile by", options.offset_mm, " mm");
+void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, double diameter_mm,
+               const ReconcileOptions& options) {
+    const double offset_mm = options.offset_mm.value_or(kMarginFraction * diameter_mm);
+    check_above_0("the offset to reconcile by", offset_mm, " mm");
     check_not_below_0("the strength of reconciling", options.strength);
     check_above_0("the reach of reconciling", options.reach);
     if (options.conflicts == Conflicts::exact) return;
-    const std::vector<std::vector<Doubt>> doubts = doubts_by_contour(crossings, trust_by_contour(points), options);
+    const std::vector<std::vector<Doubt>> doubts =
+        doubts_by_contour(crossings, trust_by_contour(points), offset_mm, options);
     for (BoundaryPoint& point : points)
         if (const auto contour = static_cast<std::size_t>(point.contour); contour < doubts.size())
             point.trust *= trust_at(point.position, doubts[contour]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,9 +11,12 @@
 
 namespace kontur {
 
+/// What contours disagree by without a contradiction, of the diameter of what was drawn.
+inline constexpr double kMarginFraction = 4.5e-3;
+
 struct ReconcileOptions {
     Conflicts conflicts = Conflicts::reconcile;
-    double offset_mm = 1;   ///< length of the normal constraints, > 0: disagreements far below it do not matter
+    std::optional<double> offset_mm{};  ///< > 0: disagreements far below it do not matter; unset: kMarginFraction
     double strength = 100;  ///< a point in the middle of a disagreement as large as the offset gets 1 / (1 + strength) trust
     double reach = 3;       ///< how far around a crossing, in multiples of the disagreement, contours yield
 };
@@ -25,6 +29,7 @@ struct ReconcileOptions {
 /// equal ones yield. `crossings` are those of find_crossings on the set that the points were made from. O(points * crossings
 /// of their contour). Throws Error(invalid_input) for an offset or reach that is not above 0, a strength below 0, and any
 /// that is not finite.
-void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, const ReconcileOptions& options);
+void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, double diameter_mm,
+               const ReconcileOptions& options = {});
 
 }  // namespace kontur

@@ -8,6 +8,7 @@
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/drawing/points_on_edges.h"
 #include "kontur/drawing/ring_starts.h"
 
 namespace kontur {
@@ -103,10 +104,23 @@ private:
     std::vector<double> values_;
 };
 
+constexpr double kOnEdge = 0.07;  // of the tolerance for spikes: so near to an edge a point says nothing of its own
+
+constexpr std::size_t kVast = 4;  // times as many points as are kept
+
 void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
     const std::size_t most = std::max<std::size_t>(options.most_points, 4);
-    if (contour.points.size() <= most) return;
+    const std::size_t before = contour.points.size();
+    if (before <= most) return;
     begin_alike(contour, smallest_ball(contour.points));  // what is kept follows from where one begins
+    contour = without_points_on_edges(contour, kOnEdge * options.spike_tolerance_mm);
+    if (contour.points.size() <= most) {
+        if (before / kVast <= options.most_points) return;
+        ++tidied.thinned_contours;
+        tidied.thinned_points += before - contour.points.size();
+        tidied.thinned_mm = std::max(tidied.thinned_mm, kOnEdge * options.spike_tolerance_mm);
+        return;
+    }
     const Significance significance(contour);
     std::vector<double> sorted = significance.values();
     const auto last_kept = sorted.begin() + static_cast<std::ptrdiff_t>(most);
@@ -119,19 +133,31 @@ void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
         else tidied.thinned_mm = std::max(tidied.thinned_mm, significance.values()[i]);
     }
     ++tidied.thinned_contours;
-    tidied.thinned_points += contour.points.size() - kept.size();
+    tidied.thinned_points += before - kept.size();
     contour.points = std::move(kept);
 }
 
+void check(const TidyOptions& options) {
+    check_not_below_0("the tolerance for spikes", options.spike_tolerance_mm, " mm");
+    check_not_below_0("the tolerance for thinning", options.thin_tolerance_mm, " mm");
+}
+
 }  // namespace
+
+Tidied thin_vast(ContourSet& set, const TidyOptions& options) {
+    check(options);
+    Tidied tidied;
+    for (Contour& contour : set.contours)
+        if (contour.points.size() / kVast > options.most_points) thin(contour, options, tidied);
+    return tidied;
+}
 
 bool is_only_spikes(const Contour& contour, double spike_tolerance_mm) {
     return points_without_spikes(contour, spike_tolerance_mm).size() < least_points(contour);
 }
 
 Tidied tidy(ContourSet& set, const TidyOptions& options) {
-    check_not_below_0("the tolerance for spikes", options.spike_tolerance_mm, " mm");
-    check_not_below_0("the tolerance for thinning", options.thin_tolerance_mm, " mm");
+    check(options);
     Tidied tidied;
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         Contour& contour = set.contours[c];

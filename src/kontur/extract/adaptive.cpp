@@ -138,8 +138,10 @@ private:
         const auto evaluate = [this](std::span<const Vec3> points, std::span<double> values) {
             fast_.values(points, values, work_);
         };
-        for (const Index3& cell : flood_coarse_cells(coarse_, evaluate, starts, kCoarseBulge * coarse_spacing_mm_,
-                                                     CoarseValues::stencils, evaluations_, work_)) {
+        const auto [cells, evaluations] = flood_coarse_cells(
+            coarse_, evaluate, starts, {kCoarseBulge * coarse_spacing_mm_, CoarseValues::stencils}, work_);
+        evaluations_ += evaluations;
+        for (const Index3& cell : cells) {
             numbers_.emplace(key(cell), band_.size());
             band_.push_back({cell, kDoubtElsewhere * coarse_spacing_mm_});
         }
@@ -335,7 +337,7 @@ SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
                                         const Work& work) {
     check_grid(grid);
-    FastFunction fast(function, {.tolerance_mm = kFastTolerance * smallest_spacing(grid),
+    FastFunction fast(function, {.tolerance_mm = kFastTolerance * smallest(grid.spacing_mm()),
                                  .expected_points = expected_surface_voxels(grid, starts)});
     return track_surface_adaptively(fast, grid, starts, work);
 }

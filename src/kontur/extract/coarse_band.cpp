@@ -145,19 +145,17 @@ Index3 coarse_cell_at(const Vec3& index, const Index3& stride) {
     return cell;
 }
 
-std::vector<Index3> flood_coarse_cells(CoarseLattice& lattice, const EvaluatePoints& evaluate,
-                                       std::span<const Index3> start_cells, double bulge_mm, CoarseValues wanted,
-                                       std::int64_t& evaluations, const Work& work) {
-    Flood flood(lattice, evaluate, bulge_mm);
+CoarseCells flood_coarse_cells(CoarseLattice& lattice, const EvaluatePoints& evaluate, std::span<const Index3> start_cells,
+                               const CoarseFloodOptions& options, const Work& work) {
+    Flood flood(lattice, evaluate, options.bulge_mm);
     flood.add_starts(start_cells);
     for (bool are_starts = true; !flood.is_done(); are_starts = false) {
         work.check();
         flood.step(are_starts);
     }
-    if (wanted == CoarseValues::stencils) flood.compute_stencils();
+    if (options.values == CoarseValues::stencils) flood.compute_stencils();
     std::vector<Index3> cells = flood.take_cells();
-    evaluations += flood.evaluations();
-    return cells;
+    return {std::move(cells), flood.evaluations()};
 }
 
 }  // namespace kontur

@@ -58,11 +58,19 @@ enum class CoarseValues {
     stencils,  ///< and the values that interpolation in them needs
 };
 
+struct CoarseFloodOptions {
+    double bulge_mm;      ///< a corner so close counts like a change of sign
+    CoarseValues values;  ///< that are computed
+};
+
+struct CoarseCells {
+    std::vector<Index3> cells;  ///< that the surface passes or may bulge into, in the order they were met
+    std::int64_t evaluations;   ///< values computed
+};
+
 /// Follows the surface over the coarse cells from those that hold the starts. Points outside of the grid count as outside of
-/// the object. Returns the cells that the surface passes or may bulge into, in the order they were met; `evaluations` counts
-/// the values computed.
-std::vector<Index3> flood_coarse_cells(CoarseLattice& lattice, const EvaluatePoints& evaluate,
-                                       std::span<const Index3> start_cells, double bulge_mm, CoarseValues wanted,
-                                       std::int64_t& evaluations, const Work& work);
+/// the object.
+CoarseCells flood_coarse_cells(CoarseLattice& lattice, const EvaluatePoints& evaluate, std::span<const Index3> start_cells,
+                               const CoarseFloodOptions& options, const Work& work);
 
 }  // namespace kontur

@@ -90,7 +90,7 @@ Entries entries(const ImplicitFunction& function, const Grid& grid, std::span<co
     Box3 box_mm;
     for (const Vec3& p : starts)
         if (is_finite(p)) box_mm.extend(p);
-    const double spacing_mm = std::max(smallest_spacing(grid), kLeastSpacingFraction * box_mm.diagonal());
+    const double spacing_mm = std::max(smallest(grid.spacing_mm()), kLeastSpacingFraction * box_mm.diagonal());
     const std::optional<Grid> lattice = preview_lattice(starts, spacing_mm);
     if (!lattice) return {};
     const SurfaceLattice surface = track_surface_adaptively(function, *lattice, starts, work);

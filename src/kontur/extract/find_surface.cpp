@@ -23,10 +23,10 @@ SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, 
 }
 
 TriangleMesh surface_mesh(const SurfaceLattice& surface, const ImplicitFunction& function, std::vector<Vec3> starts,
-                          double spacing_mm, Voxelizer voxelizer, const Work& work) {
-    const Grid grid = mesh_grid(surface, starts, spacing_mm);
+                          const SurfaceMeshOptions& options, const Work& work) {
+    const Grid grid = mesh_grid(surface, starts, options.spacing_mm);
     if (grid == surface.lattice.grid()) return polygonize(surface, function, work);
-    if (voxelizer == Voxelizer::exhaustive) {  // what no contour touches is in the mask, too
+    if (options.voxelizer == Voxelizer::exhaustive) {  // what no contour touches is in the mask, too
         const std::vector<Vec3> cuts = cut_points(surface);
         starts.insert(starts.end(), cuts.begin(), cuts.end());
     }

@@ -16,9 +16,14 @@ namespace kontur {
 SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, std::vector<Vec3> starts,
                             Voxelizer voxelizer = Voxelizer::adaptive, const Work& work = {});
 
-/// The surface on the lattice that it was found on, or on a finer one where that is coarser than `spacing_mm`: chords
-/// between slices that are far apart leave out a part of the object.
+struct SurfaceMeshOptions {
+    double spacing_mm;                          ///< > 0: chords are no longer
+    Voxelizer voxelizer = Voxelizer::adaptive;  ///< with which the surface was found
+};
+
+/// The surface on the lattice that it was found on, or on a finer one where that is coarser than the spacing: chords between
+/// slices that are far apart leave out a part of the object.
 TriangleMesh surface_mesh(const SurfaceLattice& surface, const ImplicitFunction& function, std::vector<Vec3> starts,
-                          double spacing_mm, Voxelizer voxelizer = Voxelizer::adaptive, const Work& work = {});
+                          const SurfaceMeshOptions& options, const Work& work = {});
 
 }  // namespace kontur

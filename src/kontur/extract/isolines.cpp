@@ -35,7 +35,7 @@ struct CellSide {
 
 class MarchingSquares {
 public:
-    MarchingSquares(const PlaneLattice& lattice, std::span<const double> values,
+    MarchingSquares(const IsolineLattice& lattice, std::span<const double> values,
                     const std::function<double(double, double)>& exact)
         : lattice_(lattice), values_(values), exact_(exact), visited_(values.size()) {}
 
@@ -103,7 +103,7 @@ private:
     }
     bool inside(const Node& n) const { return value(n) > 0; }
 
-    const PlaneLattice& lattice_;
+    const IsolineLattice& lattice_;
     std::span<const double> values_;
     const std::function<double(double, double)>& exact_;
     std::vector<bool> visited_;
@@ -128,7 +128,7 @@ BoxCorners corners(const Box3& box) {
     return result;
 }
 
-std::optional<PlaneLattice> lattice_over(const Plane& plane, const BoxCorners& region, double step_mm) {
+std::optional<IsolineLattice> lattice_over(const Plane& plane, const BoxCorners& region, double step_mm) {
     if (!(step_mm > 0) || !std::isfinite(step_mm))
         throw Error(ErrorKind::invalid_input, fmt::format("the sampling step is {:g} mm; it must be > 0", step_mm));
     Box3 section;  // in (u, v, distance)
@@ -143,7 +143,7 @@ std::optional<PlaneLattice> lattice_over(const Plane& plane, const BoxCorners& r
         }
     if (section.is_empty()) return std::nullopt;
 
-    PlaneLattice lattice{plane};
+    IsolineLattice lattice{plane};
     lattice.step_mm = step_mm;
     const auto first = [&](double low) { return std::floor(low / step_mm) - 1; };
     const auto nodes = [&](double low, double high) { return std::ceil(high / step_mm) + 2 - first(low); };
@@ -159,7 +159,7 @@ std::optional<PlaneLattice> lattice_over(const Plane& plane, const BoxCorners& r
     return lattice;
 }
 
-std::vector<Isoline> isolines(const PlaneLattice& lattice, std::span<const double> values,
+std::vector<Isoline> isolines(const IsolineLattice& lattice, std::span<const double> values,
                               const std::function<double(double, double)>& exact) {
     check_same_count("values", values.size(), "nodes", static_cast<std::size_t>(lattice.node_count()));
     std::vector<Isoline> lines = MarchingSquares(lattice, values, exact).lines();

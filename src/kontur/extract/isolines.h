@@ -12,7 +12,7 @@
 namespace kontur {
 
 /// A square lattice of nodes in a plane: node (i, j) has the plane coordinates (u_min_mm + i step_mm, v_min_mm + j step_mm).
-struct PlaneLattice {
+struct IsolineLattice {
     Plane plane;
     double u_min_mm = 0, v_min_mm = 0;
     double step_mm = 1;
@@ -31,7 +31,7 @@ BoxCorners corners(const Box3& box);
 /// The lattice, with nodes at multiples of `step_mm` from the plane's origin, that covers the section of the parallelepiped
 /// by the plane with at least one node to spare on every side; nullopt when they do not meet. Throws Error(invalid_input)
 /// when the step is not > 0 and Error(too_large) above 2^28 nodes.
-std::optional<PlaneLattice> lattice_over(const Plane& plane, const BoxCorners& region, double step_mm);
+std::optional<IsolineLattice> lattice_over(const Plane& plane, const BoxCorners& region, double step_mm);
 
 /// One closed line of the zero level.
 struct Isoline {
@@ -45,7 +45,7 @@ struct Isoline {
 /// are closed half a step beyond it. Two diagonal inside nodes are joined when the bilinear interpolant is > 0 at its saddle
 /// (Nielson & Hamann 1991), hence lines never cross. Crossings are interpolated linearly, or, given the function `exact` of
 /// (u, v) itself, located on it by bisection. Lines are ordered by their lowest crossing, row by row.
-std::vector<Isoline> isolines(const PlaneLattice& lattice, std::span<const double> values,
+std::vector<Isoline> isolines(const IsolineLattice& lattice, std::span<const double> values,
                               const std::function<double(double u, double v)>& exact = {});
 
 }  // namespace kontur

@@ -2,6 +2,8 @@
 #include "kontur/extract/polygonize.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <unordered_map>
 
 #include "kontur/base/error.h"
@@ -17,6 +19,10 @@ constexpr double kTolerance = 0.02;             // of the fast function's values
 constexpr double kSmallValue = 5e-3;            // in the smallest spacing: a point with less is on the surface
 constexpr int kMostSteps = 8;
 constexpr double kSureStep = 0.1;  // of an edge: after one that is longer the point is looked at again
+// What the lattice shows of an edge is believed where its values bend by no more than a share of their slope, along all axes at
+// both ends, and the cubic through four of them leaves the chord by no more than a share of the edge. Half the first share
+// leaves twice as many sums; twice as much misses by up to half again as much.
+constexpr double kStraight = 0.2, kSureCubic = 0.025;
 
 /// A lattice edge on which f changes its sign.
 struct CutEdge {
@@ -50,6 +56,22 @@ public:
         }
     }
 
+    /// Points and normals of the edges about which the lattice knows enough: a cubic along the edge, differences at its ends.
+    /// Other edges are left to `settle_at_once`: between slices that are far apart, or in thin sheets, the values bend.
+    void settle_by_lattice() {
+        mesh_.normals.resize(mesh_.points.size());
+        std::erase_if(edges_, [&](const CutEdge& edge) {
+            const std::optional<double> fraction = zero_of_cubic(edge);
+            Index3 to = edge.from;
+            to[edge.axis] += 1;
+            const std::optional<Vec3> low = differences(edge.from), high = differences(to);
+            if (!fraction || !low || !high) return false;
+            mesh_.points[edge.point] = place(edge.from, edge.axis, *fraction);
+            mesh_.normals[edge.point] = gradient_mm(*low + *fraction * (*high - *low));
+            return true;
+        });
+    }
+
     /// Moves the points by one step of Newton's method along their edges, with values and normals from where linear
     /// interpolation put them: a step of a tenth of an edge leaves some thousandths of it. Those with longer steps are left
     /// to `settle_vertices`, and get their normals afterwards.
@@ -63,7 +85,6 @@ public:
             function.values(places, values, work);
             function.gradients(places, gradients, work);
         }
-        mesh_.normals.resize(mesh_.points.size());
         std::vector<CutEdge> far;
         for (std::size_t n = 0; n < edges_.size(); ++n) {
             const CutEdge& edge = edges_[n];
@@ -86,7 +107,7 @@ public:
     /// Moves the points from where linear interpolation put them to the function's zeros; all of them step by step, because
     /// the function is cheaper in bulk. Between slices that are far apart the difference is a large part of a voxel.
     void settle_vertices(FastFunction& function, const Work& work) {
-        const double small_mm = kSmallValue * smallest_spacing(lattice_.grid());
+        const double small_mm = kSmallValue * smallest(lattice_.grid().spacing_mm());
         std::vector<Vec3> places;
         std::vector<double> values;
         for (int step = 0; step < kMostSteps && !edges_.empty(); ++step) {
@@ -143,6 +164,50 @@ private:
         return found->second;
     }
 
+    /// Where Lagrange's cubic through the values at an edge's ends and at their neighbours along it vanishes; none where a
+    /// value is unknown, or where it does so far from the chord.
+    std::optional<double> zero_of_cubic(const CutEdge& edge) const {
+        Index3 before = edge.from, behind = edge.from;
+        before[edge.axis] -= 1;
+        behind[edge.axis] += 2;
+        const double v0 = lattice_.value(before), v1 = edge.zero.low_value, v2 = edge.zero.high_value, v3 = lattice_.value(behind);
+        if (!std::isfinite(v0) || !std::isfinite(v3)) return std::nullopt;
+        const double chord = kept_off_ends(edge.fraction());
+        double t = chord;
+        for (int step = 0; step < 2; ++step) {
+            const double a = t + 1, b = t, c = t - 1, d = t - 2;
+            const double value = -v0 * b * c * d / 6 + v1 * a * c * d / 2 - v2 * a * b * d / 2 + v3 * a * b * c / 6;
+            t = kept_off_ends(t + value / (v1 - v2));
+        }
+        return std::abs(t - chord) <= kSureCubic ? std::optional(t) : std::nullopt;
+    }
+
+    /// The slope per index at a lattice point by differences; none where a neighbour's value is unknown or values bend.
+    std::optional<Vec3> differences(const Index3& at) const {
+        const double here = lattice_.value(at);
+        Vec3 slope, bend;
+        for (int axis = 0; axis < 3; ++axis) {
+            Index3 low = at, high = at;
+            low[axis] -= 1;
+            high[axis] += 1;
+            const double before = lattice_.value(low), behind = lattice_.value(high);
+            slope[axis] = 0.5 * (behind - before);
+            bend[axis] = before - 2 * here + behind;
+        }
+        const double most = kStraight * norm(slope);
+        return std::isfinite(most) && norm(bend) <= most ? std::optional(slope) : std::nullopt;
+    }
+
+    /// A gradient per mm from one per index.
+    Vec3 gradient_mm(const Vec3& by_index) const {
+        Vec3 gradient;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::array<double, 3>& row = mm_to_index_.linear[axis];
+            gradient += by_index[static_cast<int>(axis)] * Vec3{row[0], row[1], row[2]};
+        }
+        return gradient;
+    }
+
     Vec3 place(const Index3& from, int axis, double fraction) const {
         Vec3 at{static_cast<double>(from.i), static_cast<double>(from.j), static_cast<double>(from.k)};
         at[axis] += fraction;
@@ -171,6 +236,7 @@ TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, c
     for (const Index3& cell : surface.cells) builder.add_cell(cell);
     work.report("polygonize", 0.3);
     if (accuracy == MeshAccuracy::of_a_screen) {
+        builder.settle_by_lattice();
         builder.settle_at_once(function, work);
         return builder.finish();
     }
@@ -181,7 +247,7 @@ TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, c
 }
 
 TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, const Work& work) {
-    FastFunction fast(function, {.tolerance_mm = kTolerance * smallest_spacing(surface.lattice.grid()),
+    FastFunction fast(function, {.tolerance_mm = kTolerance * smallest(surface.lattice.grid().spacing_mm()),
                                  .expected_points = static_cast<std::int64_t>(kEvaluationsPerCell * surface.cells.size())});
     return polygonize(surface, fast, work);
 }

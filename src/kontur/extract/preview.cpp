@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "kontur/base/error.h"
 #include "kontur/extract/adaptive.h"
@@ -56,14 +57,21 @@ std::optional<Grid> preview_lattice(std::span<const Vec3> starts, double spacing
     return lattice_about(box, spacing_mm, anchor_mm);
 }
 
-TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options,
-                             const Work& work) {
+std::optional<LatticeSurface> preview_with_lattice(const ImplicitFunction& function, std::span<const Vec3> starts,
+                                                   const PreviewOptions& options, const Work& work) {
     const std::optional<Grid> grid = preview_lattice(starts, options.spacing_mm, options.anchor_mm);
-    if (!grid) return {};
+    if (!grid) return std::nullopt;
     FastFunction fast(function, {.tolerance_mm = kTolerance * options.spacing_mm,
                                  .expected_points = kEvaluationsPerVoxel * expected_surface_voxels(*grid, starts)});
-    const SurfaceLattice surface = track_surface_adaptively(fast, *grid, starts, work);
-    return polygonize(surface, fast, work, MeshAccuracy::of_a_screen);
+    SurfaceLattice surface = track_surface_adaptively(fast, *grid, starts, work);
+    TriangleMesh mesh = polygonize(surface, fast, work, MeshAccuracy::of_a_screen);
+    return LatticeSurface{std::move(mesh), std::move(surface)};
+}
+
+TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options,
+                             const Work& work) {
+    std::optional<LatticeSurface> found = preview_with_lattice(function, starts, options, work);
+    return found ? std::move(found->mesh) : TriangleMesh{};
 }
 
 }  // namespace kontur

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "kontur/base/work.h"
+#include "kontur/extract/track.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
@@ -23,6 +24,16 @@ struct PreviewOptions {
 /// less than about 1 / 1500 of the starts' extent.
 TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts,
                              const PreviewOptions& options = {}, const Work& work = {});
+
+/// A mesh, and the lattice on which its surface was found.
+struct LatticeSurface {
+    TriangleMesh mesh;
+    SurfaceLattice lattice;
+};
+
+/// preview_surface with its lattice; nullopt without a finite start.
+std::optional<LatticeSurface> preview_with_lattice(const ImplicitFunction& function, std::span<const Vec3> starts,
+                                                   const PreviewOptions& options = {}, const Work& work = {});
 
 /// The lattice that preview_surface finds the surface on, its points at multiples of the spacing from the anchor; nullopt
 /// without a finite start. Throws as preview_surface does.

@@ -16,9 +16,9 @@ namespace kontur {
 namespace {
 
 /// One slice as a lattice of voxel centres. Its axes are the grid's steps, so that (u, v) are the voxel indices i and j.
-PlaneLattice lattice_of(const Grid& grid, std::int64_t k) {
+IsolineLattice lattice_of(const Grid& grid, std::int64_t k) {
     const Vec3 u = grid.index_to_mm.column(0), v = grid.index_to_mm.column(1);
-    PlaneLattice lattice;
+    IsolineLattice lattice;
     lattice.plane = {grid.center_mm(0, 0, k), normalized(cross(u, v)), u, v};
     lattice.columns = grid.size.i;
     lattice.rows = grid.size.j;
@@ -26,7 +26,7 @@ PlaneLattice lattice_of(const Grid& grid, std::int64_t k) {
 }
 
 /// The slice's plane with orthonormal axes.
-Plane plane_of(const PlaneLattice& lattice) {
+Plane plane_of(const IsolineLattice& lattice) {
     Plane plane = lattice.plane;
     plane.u = normalized(plane.u);
     plane.v = cross(plane.normal, plane.u);
@@ -34,9 +34,9 @@ Plane plane_of(const PlaneLattice& lattice) {
 }
 
 /// The voxel centres of a slice, their function values where they are known and the side of the surface elsewhere.
-class Slice {
+class MaskSlice {
 public:
-    Slice(const Mask& mask, std::int64_t k)
+    MaskSlice(const Mask& mask, std::int64_t k)
         : grid_(mask.grid), k_(k), levels_(static_cast<std::size_t>(grid_.size.i * grid_.size.j)) {
         const auto first = mask.values.begin() + static_cast<std::ptrdiff_t>(grid_.offset(0, 0, k));
         std::transform(first, first + static_cast<std::ptrdiff_t>(levels_.size()), levels_.begin(),
@@ -96,7 +96,7 @@ std::array<double, 2> zero_of(const Crossing& crossing) {
 }
 
 /// Points beyond the grid's outermost centres, where it cuts the object off, stay where they are.
-std::optional<Crossing> crossing_at(const std::array<double, 2>& point, const Slice& slice) {
+std::optional<Crossing> crossing_at(const std::array<double, 2>& point, const MaskSlice& slice) {
     Crossing crossing{{std::floor(point[0]), std::floor(point[1])}, {std::ceil(point[0]), std::ceil(point[1])}};
     if (crossing.low == crossing.high || !slice.contains(crossing.low) || !slice.contains(crossing.high))
         return std::nullopt;
@@ -108,7 +108,8 @@ std::optional<Crossing> crossing_at(const std::array<double, 2>& point, const Sl
 
 /// Moves the lines' points from where linear interpolation put them to the function's zeros; all of them step by step,
 /// because the function is several times cheaper in bulk.
-void settle_points(std::vector<Isoline>& lines, const Slice& slice, const ImplicitFunction& function, const Plane& plane) {
+void settle_points(std::vector<Isoline>& lines, const MaskSlice& slice, const ImplicitFunction& function,
+                   const Plane& plane) {
     constexpr int kSteps = 8;  // leaves less than 1e-6 of a voxel where the surface is as smooth as fits are
     std::vector<Crossing> crossings;
     std::vector<std::array<double, 2>*> points;
@@ -131,10 +132,10 @@ void settle_points(std::vector<Isoline>& lines, const Slice& slice, const Implic
 }
 
 std::vector<Contour> contours_of_slice(const Mask& mask, const ImplicitFunction& function, std::int64_t k) {
-    Slice slice(mask, k);
+    MaskSlice slice(mask, k);
     if (slice.is_empty()) return {};
     slice.evaluate_border(function);
-    const PlaneLattice lattice = lattice_of(mask.grid, k);
+    const IsolineLattice lattice = lattice_of(mask.grid, k);
     std::vector<Isoline> lines = isolines(lattice, slice.levels());
     settle_points(lines, slice, function, lattice.plane);
     const Plane plane = plane_of(lattice);

@@ -15,7 +15,7 @@ namespace {
 constexpr Index3 kStride{kCoarseStride, kCoarseStride, kCoarseStride};
 
 /// Beyond the band nothing changes sides: along a row each unknown value is on the side of the one before.
-void fill_unknown(const PlaneLattice& lattice, double magnitude, std::vector<double>& values) {
+void fill_unknown(const IsolineLattice& lattice, double magnitude, std::vector<double>& values) {
     for (std::size_t n = 0; n < values.size(); ++n) {
         if (!std::isnan(values[n])) continue;
         const bool begins_row = n % static_cast<std::size_t>(lattice.columns) == 0;
@@ -39,9 +39,9 @@ SurfaceBand::SurfaceBand(const ImplicitFunction& function, std::span<const Vec3>
     const auto evaluate = [&](std::span<const Vec3> points, std::span<double> values) {
         function_.values(points, values, work);
     };
-    const std::vector<Index3> cells =
-        flood_coarse_cells(coarse, evaluate, start_cells, kCoarseBulge * kCoarseStride * options.spacing_mm,
-                           CoarseValues::corners, evaluations_, work);
+    const auto [cells, evaluations] = flood_coarse_cells(
+        coarse, evaluate, start_cells, {kCoarseBulge * kCoarseStride * options.spacing_mm, CoarseValues::corners}, work);
+    evaluations_ += evaluations;
     if (cells.empty()) return;
 
     first_cell_ = cells.front();
@@ -81,7 +81,7 @@ bool SurfaceBand::contains(const Vec3& index) const {
 
 std::vector<std::vector<Vec3>> SurfaceBand::cut(const Plane& plane) const {
     if (box_mm_.is_empty()) return {};
-    const std::optional<PlaneLattice> lattice = lattice_over(plane, corners(box_mm_), options_.spacing_mm);
+    const std::optional<IsolineLattice> lattice = lattice_over(plane, corners(box_mm_), options_.spacing_mm);
     if (!lattice) return {};
     std::vector<double> values(static_cast<std::size_t>(lattice->node_count()), std::nan(""));
     std::vector<std::size_t> nodes;

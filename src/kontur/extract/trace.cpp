@@ -126,7 +126,7 @@ std::vector<std::array<double, 2>> simplified(const std::vector<std::array<doubl
     return kept;
 }
 
-std::vector<double> sample_levels(const MaskSampler& sampler, const PlaneLattice& lattice, const Work& work) {
+std::vector<double> sample_levels(const MaskSampler& sampler, const IsolineLattice& lattice, const Work& work) {
     std::vector<double> levels(static_cast<std::size_t>(lattice.node_count()));
     parallel_for(lattice.rows, 16, work, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t j = begin; j < end; ++j)
@@ -157,7 +157,7 @@ void check_arguments(const Mask& mask, std::span<const Plane> planes, const Trac
 }
 
 double sampling_step_mm(const Grid& grid, const TraceOptions& options) {
-    return options.step_mm > 0 ? options.step_mm : 0.5 * smallest_spacing(grid);
+    return options.step_mm > 0 ? options.step_mm : 0.5 * smallest(grid.spacing_mm());
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ ContourSet trace(const Mask& mask, std::span<const Plane> planes, const TraceOpt
     for (std::size_t p = 0; p < planes.size(); ++p) {
         work.report("trace", static_cast<double>(p) / static_cast<double>(planes.size()));
         const Plane plane = orthonormalized(planes[p]);
-        const std::optional<PlaneLattice> lattice = lattice_over(plane, *region, step_mm);
+        const std::optional<IsolineLattice> lattice = lattice_over(plane, *region, step_mm);
         if (!lattice) continue;
         const std::vector<double> levels = sample_levels(sampler, *lattice, work);
         const auto exact = [&](double u, double v) { return sampler(plane.from_uv(u, v)) - 0.5; };

@@ -174,10 +174,10 @@ std::vector<Index3> cells_at(const Grid& grid, std::span<const Vec3> points) {
 Index3 farthest(const Grid& grid) {
     constexpr double kMostCells = 32;  // bounds the search on needles of voxels
     const Vec3 spacing = grid.spacing_mm();
-    const double largest = std::max({spacing.x, spacing.y, spacing.z});
+    const double widest = largest(spacing);
     Index3 reach;
     for (int axis = 0; axis < 3; ++axis)
-        reach[axis] = static_cast<std::int64_t>(std::min(std::round(largest / spacing[axis]), kMostCells));
+        reach[axis] = static_cast<std::int64_t>(std::min(std::round(widest / spacing[axis]), kMostCells));
     return reach;
 }
 

@@ -11,11 +11,6 @@
 
 namespace kontur {
 
-inline double smallest_spacing(const Grid& grid) {
-    const Vec3 spacing = grid.spacing_mm();
-    return std::min({spacing.x, spacing.y, spacing.z});
-}
-
 /// Whether a position, as an index of a grid, is anywhere near what 64 bits hold; false for NaN.
 inline bool fits_index(const Vec3& index) {
     return std::abs(index.x) < 1e15 && std::abs(index.y) < 1e15 && std::abs(index.z) < 1e15;

@@ -20,10 +20,10 @@ constexpr double kCounts = 0.03;
 }  // namespace
 
 ActiveBounds::ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& drawn)
-    : bounds_(bounds), drawn_(drawn), held_(bounds.size(), Held::no) {
+    : bounds_(bounds), drawn_(drawn), activity_(bounds.size(), Activity::no) {
     for (std::size_t b = 0; b < bounds.size(); ++b) {
         positions_.push_back(bounds[b].position);
-        if (bounds[b].least_mm == bounds[b].most_mm) held_[b] = Held::always;
+        if (bounds[b].least_mm == bounds[b].most_mm) activity_[b] = Activity::always;
     }
 }
 
@@ -32,7 +32,8 @@ void ActiveBounds::hold(std::span<const std::size_t> bounds) {
         if (b >= bounds_.size())
             throw Error(ErrorKind::invalid_input,
                         fmt::format("bound {} is to be held to begin with; there are {}", b + 1, bounds_.size()));
-        if (held_[b] == Held::no) held_[b] = std::isfinite(bounds_[b].most_mm) ? Held::at_most : Held::at_least;
+        if (activity_[b] == Activity::no)
+            activity_[b] = std::isfinite(bounds_[b].most_mm) ? Activity::at_most : Activity::at_least;
     }
 }
 
@@ -43,21 +44,23 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
     std::vector<Left> left;
     bool counts = false;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
-        if (held_[i] == Held::always) continue;
+        if (activity_[i] == Activity::always) continue;
         const double above = values[i] - bounds_[i].most_mm, below = bounds_[i].least_mm - values[i];
         const double noise = bounds_[i].noise_mm;
-        if (held_[i] == Held::no) {
+        if (activity_[i] == Activity::no) {
             const double excess = std::max(above, below);
-            if (excess > std::max(tolerance_mm, kCounts * noise))
-                left.push_back({excess, i, above > below ? Held::at_most : Held::at_least});
-        } else if (const double excess = held_[i] == Held::at_most ? above : below; excess <= 0) {
-            held_[i] = Held::no;
+            const bool has_its_side =
+                bounds_[i].by_side && values[i] * (above > below ? bounds_[i].most_mm : bounds_[i].least_mm) > 0;
+            if (!has_its_side && excess > std::max(tolerance_mm, kCounts * noise))
+                left.push_back({excess, i, above > below ? Activity::at_most : Activity::at_least});
+        } else if (const double excess = activity_[i] == Activity::at_most ? above : below; excess <= 0) {
+            activity_[i] = Activity::no;
             counts = counts || excess < -std::max(tolerance_mm, held_counts * noise);
         }
     }
     counts = counts || !left.empty();
     if (are_first && !left.empty()) left = farthest_off(std::move(left));
-    for (const Left& one : left) held_[one.bound] = one.limit;
+    for (const Left& one : left) activity_[one.bound] = one.limit;
     return counts;
 }
 
@@ -80,15 +83,16 @@ std::vector<ActiveBounds::Left> ActiveBounds::farthest_off(std::vector<Left> lef
 }
 
 bool ActiveBounds::holds_any() const {
-    return std::ranges::any_of(held_, [](Held held) { return held == Held::at_least || held == Held::at_most; });
+    return std::ranges::any_of(
+        activity_, [](Activity activity) { return activity == Activity::at_least || activity == Activity::at_most; });
 }
 
 void ActiveBounds::append_to(std::vector<PointConstraint>& points) const {
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
         const Bound& bound = bounds_[i];
-        if (held_[i] == Held::no) continue;
+        if (activity_[i] == Activity::no) continue;
         points.push_back({.position = bound.position,
-                          .value = held_[i] == Held::at_least ? bound.least_mm : bound.most_mm,
+                          .value = activity_[i] == Activity::at_least ? bound.least_mm : bound.most_mm,
                           .noise_mm = bound.noise_mm,
                           .extent = bound.extent});
     }

@@ -33,13 +33,13 @@ public:
     void append_to(std::vector<PointConstraint>& points) const;
 
 private:
-    enum class Held : std::uint8_t { no, at_least, at_most, always };
+    enum class Activity : std::uint8_t { no, at_least, at_most, always };
 
     /// A bound whose interval f leaves.
     struct Left {
         double excess_mm;
         std::size_t bound;
-        Held limit;
+        Activity limit;
     };
 
     std::vector<Left> farthest_off(std::vector<Left> left) const;
@@ -47,7 +47,7 @@ private:
     const std::vector<Bound>& bounds_;
     const std::vector<BoundaryPoint>& drawn_;
     std::vector<Vec3> positions_;
-    std::vector<Held> held_;
+    std::vector<Activity> activity_;
 };
 
 }  // namespace kontur

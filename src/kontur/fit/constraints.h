@@ -18,6 +18,7 @@ struct PointConstraint {
     double extent = 1;    ///< in (0, 1], as a boundary point's
 };
 
+/// By itself as the paper has it; `fit` has its own (FitOptions).
 struct PlaceOptions {
     double normal_offset_mm = 1.0;  ///< length d > 0 of the normal constraints
     bool both_sides = false;        ///< normal constraints inside as well as outside, at every second point or so

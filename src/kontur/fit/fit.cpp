@@ -12,12 +12,19 @@
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/base/pick.h"
+#include "kontur/bounds/clicks.h"
 #include "kontur/fit/active_bounds.h"
+#include "kontur/fit/click_guards.h"
 #include "kontur/fit/thin.h"
 #include "kontur/fit/tilt_trust.h"
 
 namespace kontur {
 namespace {
+
+// Where they are not given; docs/decisions/0001-surface-normals.md has the measurements.
+constexpr double kOffsetFraction = 1.35e-2;  // of the drawing's diameter: normal constraints on both sides, soft
+constexpr double kSpacingOfOffset = 0.75;    // from one to the next along a line at least; a third more on average
+constexpr double kSlopeNoise = 0.21;         // what the tilt of an organ's surface is known to
 
 /// Cosine of the angle between the surface's normal and the contour's plane.
 double slope(const BoundaryPoint& point, const Vec3& gradient, double least_slope) {
@@ -74,6 +81,7 @@ public:
         : all_(contours.points),
           ball_(contours.ball),
           options_(options),
+          place_(place_options(options)),
           work_(work),
           bounds_(contours.bounds, contours.points) {}
 
@@ -85,7 +93,7 @@ public:
             find_slopes();
             settle_bounds(kept.size());
         } else {
-            bounds_.hold(options_.start_held);
+            bounds_.hold(options_.start_bounds);
         }
         progress_ = {progress_.end, 1.0};
         for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves;)
@@ -95,7 +103,7 @@ public:
 
 private:
     /// A stretch of the whole progress.
-    struct Stretch {
+    struct ProgressSpan {
         double begin = 0, end = 0;
     };
 
@@ -105,19 +113,19 @@ private:
         const std::vector<BoundaryPoint> points = pick(all_, part);
         std::vector<double> slopes = pick(result_.slopes, part);
         SolveOptions solving = options_.solve;
-        solving.tolerance_mm *= options_.early_tolerance_factor;
+        *solving.tolerance_mm *= options_.early_tolerance_factor;
         double smoothing = options_.start_smoothing;
         for (int round = 0; round < options_.rounds; ++round, smoothing *= options_.smoothing_factor) {
             progress_ = {progress_.end, progress_.end + 0.5 / options_.rounds};
-            solving.smoothing = share(points) * std::max(smoothing, options_.solve.smoothing);
-            solve_for(points, slopes, options_.place, solving);
-            bounds_.update(result_.function, 2 * solving.tolerance_mm, kCountsHeld, work_);
+            solving.smoothing = share(points) * std::max(smoothing, *options_.solve.smoothing);
+            solve_for(points, slopes, place_, solving);
+            bounds_.update(result_.function, 2 * *solving.tolerance_mm, kCountsHeld, work_);
             std::vector<double> next = read_slopes(result_.function, points, options_, work_);
             result_.tilt_change_degrees = mean_change_degrees(slopes, next);
             slopes = std::move(next);
         }
         const std::vector<double> shown = read_slopes(result_.function, all_, options_, work_);
-        result_.slopes = believed_slopes(all_, part, shown, options_.place.normal_offset_mm);
+        result_.slopes = believed_slopes(all_, part, shown, place_.normal_offset_mm);
     }
 
     /// Finds which bounds a fit of so many points leans on, from half as many at most: that fit is repeated less often then.
@@ -133,12 +141,12 @@ private:
                     bool is_last = false) {
         const std::vector<BoundaryPoint> points = pick(all_, part);
         SolveOptions solving = options_.solve;
-        solving.smoothing *= share(points);
-        solving.tolerance_mm *= tolerance_factor;
-        PlaceOptions placing = options_.place;
+        *solving.smoothing *= share(points);
+        *solving.tolerance_mm *= tolerance_factor;
+        PlaceOptions placing = place_;
         placing.slope_noise *= std::sqrt(share(points));
         solve_for(points, pick(result_.slopes, part), placing, solving);
-        return !is_last && bounds_.update(result_.function, 2 * solving.tolerance_mm, held_counts, work_);
+        return !is_last && bounds_.update(result_.function, 2 * *solving.tolerance_mm, held_counts, work_);
     }
 
     /// Solves for points with these slopes, with the bounds that are held.
@@ -147,7 +155,7 @@ private:
         std::vector<PointConstraint> single_points;
         bounds_.append_to(single_points);
         result_.bounded = single_points.size();
-        result_.held = single_points;
+        result_.active_bounds = single_points;
         PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
         solve_placed(placing.both_sides ? in_order_of_place(std::move(placed)) : placed, solving);
     }
@@ -181,18 +189,32 @@ private:
     const std::vector<BoundaryPoint>& all_;
     const Ball3& ball_;
     const FitOptions& options_;
+    const PlaceOptions place_;
     const Work& work_;
     ActiveBounds bounds_;
     PreviousSolve previous_;
-    Stretch progress_;
+    ProgressSpan progress_;
     FittedFunction result_;
 };
+
+/// What clicks must not do besides, from a fit of as many points as show the tilts.
+std::vector<Bound> guards_of(const PreparedContours& contours, const FitOptions& options, const Work& work) {
+    if (options.normals != Normals::surface || std::ranges::none_of(contours.bounds, is_click)) return {};
+    PreparedContours without = contours;
+    std::erase_if(without.bounds, is_click);
+    FitOptions coarse = options;
+    coarse.most_points = options.tilt_points;
+    coarse.most_solves = 1;
+    coarse.start_bounds.clear();
+    return click_guards(contours, Solves(without, coarse, work.untold()).run().function, work);
+}
 
 }  // namespace
 
 std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
 
 void check_fit_options(const FitOptions& options, std::size_t points) {
+    if (points == 0) throw Error(ErrorKind::invalid_input, "there are 0 points to fit a function to; at least 1 is needed");
     check_at_least("the number of rounds", options.rounds, 0);
     check_at_least("the number of solves with all points", options.most_solves, 1);
     check_not_below_0("the start's smoothing", options.start_smoothing);
@@ -204,13 +226,40 @@ void check_fit_options(const FitOptions& options, std::size_t points) {
     if (options.tilt_points < 1)
         throw Error(ErrorKind::invalid_input, "the tilts are to be found from 0 points; at least 1 is needed");
     if (!options.start_slopes.empty()) check_slopes(options.start_slopes, points);
-    check_place_options(options.place);
     check_solve_options(options.solve);  // before the early solves, which change them
 }
 
-FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Work& work) {
-    check_fit_options(options, contours.points.size());
-    return Solves(contours, options, work).run();
+FitOptions resolved(FitOptions options, double diameter_mm) {
+    const bool is_surface = options.normals == Normals::surface;
+    const double offset_mm =
+        options.normal_offset_mm.value_or((is_surface ? kOffsetFraction : kMarginFraction) * diameter_mm);
+    options.normal_offset_mm = offset_mm;
+    options.both_sides = options.both_sides.value_or(is_surface);
+    options.normal_spacing_mm = options.normal_spacing_mm.value_or(is_surface ? kSpacingOfOffset * offset_mm : 0);
+    options.slope_noise = options.slope_noise.value_or(is_surface ? kSlopeNoise : 0);
+    options.merge_distance_mm = options.merge_distance_mm.value_or(kMergeFraction * diameter_mm);
+    if (!is_surface) options.solve.smoothing = options.solve.smoothing.value_or(0.0);
+    options.solve = resolved(options.solve, diameter_mm);
+    check_place_options(place_options(options));
+    return options;
+}
+
+PlaceOptions place_options(const FitOptions& options) {
+    return {.normal_offset_mm = options.normal_offset_mm.value(),
+            .both_sides = options.both_sides.value(),
+            .normal_spacing_mm = options.normal_spacing_mm.value(),
+            .slope_noise = options.slope_noise.value(),
+            .merge_distance_mm = options.merge_distance_mm.value()};
+}
+
+FittedFunction fit(const PreparedContours& contours, const FitOptions& given, const Work& work) {
+    check_fit_options(given, contours.points.size());
+    const FitOptions options = resolved(given, contours.ball.diameter());
+    const std::vector<Bound> guards = guards_of(contours, options, work);
+    if (guards.empty()) return Solves(contours, options, work).run();
+    PreparedContours guarded = contours;
+    guarded.bounds.insert(guarded.bounds.end(), guards.begin(), guards.end());
+    return Solves(guarded, options, work).run();
 }
 
 }  // namespace kontur

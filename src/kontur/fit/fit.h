@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -19,31 +20,43 @@ struct FitOptions {
     double least_slope = 0.2;            ///< surface normals: lower bound of the cosine of the tilt
     double early_tolerance_factor = 30;  ///< surface normals: the rounds before the last only have to show the tilt
     std::size_t tilt_points = 1000;      ///< surface normals: about how many of the points take part in these rounds
-    std::vector<double> start_slopes;    ///< surface normals: known slopes, one per boundary point; empty: all 1
-    std::vector<std::size_t> start_held;  ///< without rounds: the bounds at which f is held in the first solve
-    std::size_t most_points = 0;          ///< the last fit uses about as many points; 0: all
-    int most_solves = 3;  ///< with all points, while other bounds should be held than were; 1: whatever is held
-    PlaceOptions place;
-    SolveOptions solve;
+    std::vector<double> start_slopes{};  ///< surface normals: known slopes, one per boundary point; empty: all 1
+    std::vector<std::size_t> start_bounds{};  ///< without rounds: the bounds at which f is held in the first solve
+    std::size_t most_points = 0;              ///< the last fit uses about as many points; 0: all
+    int most_solves = 2;  ///< with all points, while other bounds should be held than were; 1: whatever is held
+    /// Length d > 0 of the normal constraints; unset: 1.35 % of the drawing's diameter, with in-plane normals 0.45 %.
+    std::optional<double> normal_offset_mm{};
+    std::optional<bool> both_sides{};  ///< normal constraints inside as well as outside; unset: with surface normals
+    std::optional<double> normal_spacing_mm{};  ///< of PlaceOptions; unset: 0.75 d, with in-plane normals 0
+    std::optional<double> slope_noise{};        ///< of PlaceOptions; unset: 0.21, with in-plane normals 0
+    std::optional<double> merge_distance_mm{};  ///< of PlaceOptions; unset: kMergeFraction of the drawing's diameter
+    SolveOptions solve{};
 };
+
+/// The same options with what is not given for a drawing of this diameter. Throws as check_place_options.
+FitOptions resolved(FitOptions options, double diameter_mm);
+
+/// How the constraints of such a fit are placed. The options are to be resolved.
+PlaceOptions place_options(const FitOptions& options);
 
 /// An implicit function through contours, and how it was found.
 struct FittedFunction {
     ImplicitFunction function;
-    SolveReport report;                 ///< of the last solve
-    int solves = 0;                     ///< of any part of the points
-    int full_solves = 0;                ///< of all points
-    int iterations = 0;                 ///< over all solves
-    std::size_t merged = 0;             ///< near-duplicate constraints left out
-    std::size_t bounded = 0;            ///< bounds at which f is held
-    std::size_t constraints = 0;        ///< kept
-    double tilt_change_degrees = 0;     ///< mean change of the tilts in the last round
-    std::vector<double> slopes;         ///< cosine of the surface's tilt, one per boundary point
-    std::vector<PointConstraint> held;  ///< the bounds at which f is held, as they took part in the last solve
+    SolveReport report;                          ///< of the last solve
+    int solves = 0;                              ///< of any part of the points
+    int full_solves = 0;                         ///< of all points
+    int iterations = 0;                          ///< over all solves
+    std::size_t merged = 0;                      ///< near-duplicate constraints left out
+    std::size_t bounded = 0;                     ///< bounds at which f is held
+    std::size_t constraints = 0;                 ///< kept
+    double tilt_change_degrees = 0;              ///< mean change of the tilts in the last round
+    std::vector<double> slopes;                  ///< cosine of the surface's tilt, one per boundary point
+    std::vector<PointConstraint> active_bounds;  ///< at which f is held, as they took part in the last solve
 };
 
 /// Throws Error(invalid_input) for counts below 0, factors and lengths that are not finite or make no sense, slopes outside
-/// of (0, 1] or not one for each of the points, and what check_place_options and check_solve_options refuse.
+/// of (0, 1] or not one for each of the points, and what check_place_options and check_solve_options refuse of what is
+/// given.
 void check_fit_options(const FitOptions& options, std::size_t points);
 
 /// Fits the implicit function to prepared contours. A contour fixes only the in-plane part of the surface's direction;
@@ -61,6 +74,6 @@ void check_fit_options(const FitOptions& options, std::size_t points);
 /// leans on it. Which bounds these are is settled by solves of a part of the points, so that the fit of all points, which
 /// costs the most, is repeated less often. Interior and exterior points are bounds of the same kind. Throws Error as
 /// check_fit_options, place_constraints and solve do.
-FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Work& work = {});
+FittedFunction fit(const PreparedContours& contours, const FitOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "kontur/base/error.h"
 #include "kontur/drawing/orient.h"
+#include "kontur/drawing/reconcile.h"
 #include "kontur/drawing/subdivide.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/solve/solve.h"
@@ -17,7 +21,6 @@ namespace {
 
 /// Points of the closed contours and single points of the surface.
 std::vector<BoundaryPoint> known_points(const ContourSet& set) {
-    constexpr int kLeastSegments = 48;
     std::vector<BoundaryPoint> points;
     for (const Contour& drawn : set.contours) {
         if (!drawn.closed) continue;
@@ -43,7 +46,7 @@ std::optional<ImplicitFunction> coarse_fit(const ContourSet& set) {
     std::vector<PointConstraint> clicks;
     for (const Vec3& p : set.interior) clicks.push_back({p, 0.075 * diameter});
     for (const Vec3& p : set.exterior) clicks.push_back({p, -0.075 * diameter});
-    const PlaceOptions place{.normal_offset_mm = 4.5e-3 * diameter, .merge_distance_mm = 1.5e-3 * diameter};
+    const PlaceOptions place{.normal_offset_mm = kMarginFraction * diameter, .merge_distance_mm = 1.5e-3 * diameter};
     try {
         const std::vector<double> slopes(points.size(), 1.0);
         return solve(place_constraints(points, slopes, clicks, place).constraints,
@@ -92,9 +95,31 @@ std::vector<FoundSide> find_sides(ContourSet& set) {
     return sides;
 }
 
-std::string sentence(const FoundSide& found) {
-    return fmt::format("contour {} is open; the object was taken to lie on its {}{}", found.contour + 1, name(found.inside),
-                       found.is_sure ? "" : ", which is doubtful");
+Drawing read_drawing(const ContourSet& drawn, FillRule rule) {
+    Drawing drawing(drawn, rule);
+    drawing.sides = find_sides(drawing.tidied);
+    for (std::string& sentence : sentences(drawing.sides)) drawing.notes.push_back(std::move(sentence));
+    return drawing;
+}
+
+std::vector<std::string> sentences(const std::vector<FoundSide>& sides) {
+    std::vector<std::string> all;
+    for (const bool is_sure : {true, false})
+        for (const Hand inside : {Hand::left, Hand::right}) {
+            std::vector<FoundSide> alike;
+            std::ranges::copy_if(sides, std::back_inserter(alike),
+                                 [&](const FoundSide& found) { return found.inside == inside && found.is_sure == is_sure; });
+            if (alike.empty()) continue;
+            const std::size_t first = alike.front().contour + 1;
+            all.push_back(
+                (alike.size() == 1
+                     ? fmt::format("contour {} is open; the object was taken to lie on its {}", first, name(inside))
+                     : fmt::format("{} contours are open, the first of them contour {}; the object was "
+                                   "taken to lie on their {}",
+                                   alike.size(), first, name(inside))) +
+                (is_sure ? "" : ", which is doubtful"));
+        }
+    return all;
 }
 
 }  // namespace kontur

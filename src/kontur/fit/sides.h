@@ -13,7 +13,11 @@ namespace kontur {
 /// that was drawn. Returns what was found, in the order of the contours.
 std::vector<FoundSide> find_sides(ContourSet& set);
 
-/// "contour 3 is open; the object was taken to lie on its left": contours are counted from 1.
-std::string sentence(const FoundSide& found);
+/// What was drawn, with the sides of open contours found. Throws as check_contours.
+Drawing read_drawing(const ContourSet& drawn, FillRule rule = FillRule::even_odd);
+
+/// "contour 3 is open; the object was taken to lie on its left": contours are counted from 1. One sentence for all of one
+/// side, and one for those of which it is doubtful.
+std::vector<std::string> sentences(const std::vector<FoundSide>& sides);
 
 }  // namespace kontur

@@ -15,6 +15,9 @@ struct LinePoints {
     bool is_ring;  ///< the first follows the last
 };
 
+/// Points that are spread along a line are so much farther apart on average than at least.
+inline constexpr double kSpreadApart = 1.3;
+
 /// Of the points of a line some that are spread along it: a point is taken unless one that was taken before is one of its
 /// `neighbours` next ones or less than its `apart_mm` away along the line. They are asked in the order of how little the
 /// line turns there, so that it matters neither where a ring begins nor which way the line runs, and that what is done to

@@ -10,9 +10,6 @@
 namespace kontur {
 namespace {
 
-// Points that are spread along a line are so much farther apart on average than at least.
-constexpr double kApart = 1.3;
-
 LinePoints line_of(const std::vector<BoundaryPoint>& points, const Stretch& stretch) {
     LinePoints line{{}, stretch.is_ring};
     for (std::size_t i = stretch.begin; i < stretch.end; ++i) line.positions.push_back(points[i].position);
@@ -51,7 +48,7 @@ std::vector<std::size_t> thin(const std::vector<BoundaryPoint>& points, std::siz
 
     for (std::size_t s = 0, single = 0; s < all.size(); ++s) {
         if (points[all[s].begin].contour == kNoContour && single++ % every != 0) continue;
-        const std::vector<double> apart(lines[s].positions.size(), std::min(step, lengths[s] / per_short) / kApart);
+        const std::vector<double> apart(lines[s].positions.size(), std::min(step, lengths[s] / per_short) / kSpreadApart);
         const std::vector<bool> taken = spread_along(lines[s], apart, 0);
         for (std::size_t i = 0; i < taken.size(); ++i)
             if (taken[i]) kept.push_back(all[s].begin + i);

@@ -53,7 +53,7 @@ SourceCells::SourceCells(const PointArrays& centers, std::span<const double> wei
     for (std::size_t i = 0; i < centers.size(); ++i) box.extend(centers[i]);
     if (box.is_empty()) box.extend({});
     const Vec3 size = box.size();
-    edge_ = std::max(edge, std::max({size.x, size.y, size.z}) / kMostCellsAlong);
+    edge_ = std::max(edge, largest(size) / kMostCellsAlong);
     for (int axis = 0; axis < 3; ++axis) {
         first_[axis] = cell_along(box.min[axis], edge_);
         size_[axis] = cell_along(box.max[axis], edge_) - first_[axis] + 1;

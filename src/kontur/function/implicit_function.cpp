@@ -145,7 +145,7 @@ Vec3 ImplicitFunction::fall_gradient_at(const Vec3& point) const {
 }
 
 void ImplicitFunction::sums_at(const PointArrays& points, std::span<double> out, const Work& work) const {
-    sum_kernel(data_->kernel, data_->centers, data_->weights, points, out, work);
+    sum_kernel({data_->kernel, data_->centers, data_->weights}, points, out, work);
     finish_values(points, out, work);
 }
 
@@ -160,7 +160,7 @@ void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3
     check_same_count("gradients", out.size(), "points", points_mm.size());
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
-    sum_kernel_gradient(d.kernel, d.centers, d.weights, points, out, work);
+    sum_kernel_gradient({d.kernel, d.centers, d.weights}, points, out, work);
     finish_gradients(points, out, work);
 }
 
@@ -170,7 +170,7 @@ void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std
     check_same_count("gradients", gradients.size(), "points", points_mm.size());
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
-    sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, work);
+    sum_kernel_and_gradient({d.kernel, d.centers, d.weights}, points, values, gradients, work);
     finish_values(points, values, work);
     add_fall(points, values);
     finish_gradients(points, gradients, work);

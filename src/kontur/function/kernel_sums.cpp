@@ -201,12 +201,11 @@ EvenPowers even_powers(const PointArrays& centers, std::span<const double> weigh
             static_cast<double>(-1.5 * l * sum)};
 }
 
-void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
-                std::span<double> out, const Work& work) {
-    sum_values(kernel == Kernel::screened      ? sum_screened
-               : kernel == Kernel::triharmonic ? sum_triharmonic
-                                               : sum_biharmonic,
-               sources(centers, weights), targets, out, work);
+void sum_kernel(const KernelSum& sum, const PointArrays& targets, std::span<double> out, const Work& work) {
+    sum_values(sum.kernel == Kernel::screened      ? sum_screened
+               : sum.kernel == Kernel::triharmonic ? sum_triharmonic
+                                                   : sum_biharmonic,
+               sources(sum.centers, sum.weights), targets, out, work);
 }
 
 void sum_far_kernel(const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
@@ -214,33 +213,31 @@ void sum_far_kernel(const PointArrays& centers, std::span<const double> weights,
     sum_values(sum_screened_far, sources(centers, weights), targets, out, work);
 }
 
-void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
-                         const PointArrays& targets, std::span<Vec3> out, const Work& work) {
-    const auto sum = kernel == Kernel::screened      ? sum_screened_gradient
-                     : kernel == Kernel::triharmonic ? sum_triharmonic_gradient
-                                                     : sum_biharmonic_gradient;
+void sum_kernel_gradient(const KernelSum& sum, const PointArrays& targets, std::span<Vec3> out, const Work& work) {
+    const auto add = sum.kernel == Kernel::screened      ? sum_screened_gradient
+                     : sum.kernel == Kernel::triharmonic ? sum_triharmonic_gradient
+                                                         : sum_biharmonic_gradient;
     for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
         Lanes lanes, result;
         load(targets, begin, count, lanes);
-        sum(sources(centers, weights), lanes, result);
+        add(sources(sum.centers, sum.weights), lanes, result);
         for (std::size_t l = 0; l < count; ++l) out[begin + l] = {result.x[l], result.y[l], result.z[l]};
     });
 }
 
-void sum_kernel_and_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
-                             const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients,
-                             const Work& work) {
-    if (kernel == Kernel::biharmonic) {
-        sum_kernel(kernel, centers, weights, targets, values, work);
-        sum_kernel_gradient(kernel, centers, weights, targets, gradients, work);
+void sum_kernel_and_gradient(const KernelSum& sum, const PointArrays& targets, std::span<double> values,
+                             std::span<Vec3> gradients, const Work& work) {
+    if (sum.kernel == Kernel::biharmonic) {
+        sum_kernel(sum, targets, values, work);
+        sum_kernel_gradient(sum, targets, gradients, work);
         return;
     }
-    const auto sum = kernel == Kernel::screened ? sum_screened_both : sum_triharmonic_both;
+    const auto add = sum.kernel == Kernel::screened ? sum_screened_both : sum_triharmonic_both;
     for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
         Lanes lanes, slope;
         alignas(64) std::array<double, kLanes> result;
         load(targets, begin, count, lanes);
-        sum(sources(centers, weights), lanes, result.data(), slope);
+        add(sources(sum.centers, sum.weights), lanes, result.data(), slope);
         std::copy_n(result.begin(), count, values.begin() + static_cast<std::ptrdiff_t>(begin));
         for (std::size_t l = 0; l < count; ++l) gradients[begin + l] = {slope.x[l], slope.y[l], slope.z[l]};
     });

@@ -47,11 +47,17 @@ struct EvenPowers {
 };
 EvenPowers even_powers(const PointArrays& centers, std::span<const double> weights);
 
+/// Sums over centres of their weights times the kernel.
+struct KernelSum {
+    Kernel kernel;
+    const PointArrays& centers;
+    std::span<const double> weights;  ///< one for each centre
+};
+
 /// out[t] = sum_j weights[j] phi(|targets[t] - centers[j]|). The sum runs over j in order for every target, so
 /// on one type of processor a value depends neither on the batch it is computed in nor on `threads`.
 /// With the screened kernel no target may be farther than kScreenedReach from a centre.
-void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
-                std::span<double> out, const Work& work);
+void sum_kernel(const KernelSum& sum, const PointArrays& targets, std::span<double> out, const Work& work);
 
 /// The same sums of the screened kernel k itself, at any distance; slower.
 void sum_far_kernel(const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
@@ -59,12 +65,10 @@ void sum_far_kernel(const PointArrays& centers, std::span<const double> weights,
 
 /// out[t] = gradient at targets[t] of sum_kernel's sum. At a centre the term of that centre is 0 (for phi = r by
 /// convention).
-void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
-                         const PointArrays& targets, std::span<Vec3> out, const Work& work);
+void sum_kernel_gradient(const KernelSum& sum, const PointArrays& targets, std::span<Vec3> out, const Work& work);
 
 /// Both at once, cheaper than one after the other; the screened kernel's values are the same to rounding.
-void sum_kernel_and_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
-                             const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients,
-                             const Work& work);
+void sum_kernel_and_gradient(const KernelSum& sum, const PointArrays& targets, std::span<double> values,
+                             std::span<Vec3> gradients, const Work& work);
 
 }  // namespace kontur

@@ -12,15 +12,14 @@ namespace kontur {
 namespace {
 
 constexpr double kTolerance = 0.02;  // of f, in edges
-constexpr double kBeside = 1e-6;     // edges: a line between cells is in all of them, however it is rounded
 
 std::vector<std::uint8_t> cells_on(const ContourSet& contours, const ImageCells& cells) {
     std::vector<std::uint8_t> marked(cells.looks.size());
     const Affine3 to_index = cells.grid.index_to_mm.inverse();
     for (const Vec3& p : along_contours(contours, 0.5 * cells.edge_mm()))
-        for (const double x : {-kBeside, kBeside})
-            for (const double y : {-kBeside, kBeside})
-                for (const double z : {-kBeside, kBeside}) {
+        for (const double x : {-kBetweenCells, kBetweenCells})
+            for (const double y : {-kBetweenCells, kBetweenCells})
+                for (const double z : {-kBetweenCells, kBetweenCells}) {
                     const Index3 cell = nearest_index(to_index.apply(p) + Vec3{x, y, z});
                     if (cells.holds(cell)) marked[cells.offset(cell)] = 1;
                 }
@@ -45,8 +44,8 @@ Depths depths_of(const std::vector<std::uint8_t>& inside, const ImageCells& cell
     NearestMarked found = nearest_marked(cells.grid.size, just_below_surface(inside, cells));
     const auto edge = static_cast<float>(cells.edge_mm());
     for (std::size_t n = 0; n < inside.size(); ++n)
-        found.steps[n] = edge * (inside[n] ? found.steps[n] + 0.5F : 0.5F - found.steps[n]);
-    return {std::move(found.steps), std::move(found.nearest)};
+        found.distances[n] = edge * (inside[n] ? found.distances[n] + 0.5F : 0.5F - found.distances[n]);
+    return {std::move(found.distances), std::move(found.nearest)};
 }
 
 CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function, const ContourSet& contours,
@@ -59,7 +58,7 @@ CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function
                                  .expected_points = expected_surface_voxels(cells.grid, starts)});
     Depths depths =
         depths_of(fill(track_surface_adaptively(fast, cells.grid, starts, work.untold(), doubts), work).values, cells);
-    std::vector<float> far = nearest_marked(cells.grid.size, cells_on(contours, cells)).steps;
+    std::vector<float> far = nearest_marked(cells.grid.size, cells_on(contours, cells)).distances;
     for (float& mm : far) mm *= static_cast<float>(cells.edge_mm());
     return {std::move(depths.depth_mm), std::move(far), std::move(depths.nearest)};
 }
@@ -72,8 +71,9 @@ CellDepths between(const CellDepths& first, const CellDepths& second, double sha
     return depths;
 }
 
-CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const ImplicitFunction& function,
-                        const Movement& movement, const Beliefs& beliefs, const CellSlab& near, const Work& work) {
+CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const MovedSurface& surface, const CellSlab& near,
+                        const Work& work) {
+    const auto& [function, movement, beliefs] = surface;
     if (movement.points.empty()) return depths;
     std::vector<std::size_t> below;
     std::vector<Vec3> on_surface;

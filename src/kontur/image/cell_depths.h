@@ -14,6 +14,9 @@
 
 namespace kontur {
 
+/// Edges: what lies between cells is in all of them, however it is rounded.
+inline constexpr double kBetweenCells = 1e-6;
+
 /// How the cells of an image lie to a surface and to the contours that it runs through, to half a cell.
 struct CellDepths {
     std::vector<float> depth_mm;         ///< of each cell below the surface; above it less than 0
@@ -52,8 +55,15 @@ struct CellSlab {
     bool holds(const Vec3& center) const { return std::abs(plane.distance_to(center)) <= half_mm; }
 };
 
+/// The surface of f, and how far the image moves it.
+struct MovedSurface {
+    const ImplicitFunction& function;
+    const Movement& movement;
+    const Beliefs& beliefs;
+};
+
 /// The same of the surface moved along its normals, by what moves the nearest place of it; beyond the slab it stays.
-CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const ImplicitFunction& function,
-                        const Movement& movement, const Beliefs& beliefs, const CellSlab& near, const Work& work = {});
+CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const MovedSurface& surface, const CellSlab& near,
+                        const Work& work = {});
 
 }  // namespace kontur

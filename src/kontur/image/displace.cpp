@@ -13,10 +13,9 @@
 namespace kontur {
 namespace {
 
-constexpr std::size_t kMostPlanes = 5, kFewestPlanes = 3, kLeastPoints = 10;
+constexpr std::size_t kMostPlanes = 5;
 constexpr double kPoints = 500;              // of all planes together, displaced ...
 constexpr double kMostPoints = 4000;         // ... and to measure distances from
-constexpr double kSurfaceSpacing = 0.04;     // of the drawing's diameter
 constexpr double kLeastDisplacement = 0.5;   // voxels
 constexpr double kSupposedImageError = 0.7;  // voxels: how wrong the image is, until that is measured here
 constexpr double kLargest = 3;               // displacements: errors larger than this say no more
@@ -24,7 +23,7 @@ constexpr double kLargest = 3;               // displacements: errors larger tha
 /// Of the places between the contours, a voxel and more off.
 std::optional<double> median_distance_mm(const Drawing& drawing, const ImplicitFunction& function, double voxel_mm,
                                          const Work& work) {
-    const double spacing = kSurfaceSpacing * drawing.diameter_mm();
+    const double spacing = kFoldSpacing * drawing.diameter_mm();
     const PointTree contours(
         along_contours(drawing.contours, std::max(voxel_mm, length_mm(drawing.contours) / kMostPoints)));
     std::vector<double> distances;
@@ -103,7 +102,7 @@ std::optional<HeldOutErrors> displace_planes(const Drawing& drawing, const Image
     parallel_for(static_cast<std::int64_t>(groups.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             planes[i] = displace(displaced, drawing.contours, groups[i], alone);
-            for (HeldOut& point : planes[i].points) point.plane = i;
+            for (HeldOutPoint& point : planes[i].points) point.plane = i;
         }
     });
     if (!tell_enough(planes)) return std::nullopt;

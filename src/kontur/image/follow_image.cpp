@@ -21,7 +21,7 @@ constexpr std::size_t kFewPlanes = 3;    // of which leaving one out tells littl
 /// What speaks for the image and against it.
 struct Trial {
     std::optional<LeftOutPlanes> left_out;
-    std::optional<HeldOutErrors> displaced;  ///< asked where leaving planes out does not show, or hardly, that it helps
+    std::optional<HeldOutErrors> displaced;  ///< measured where leaving planes out does not show, or hardly, that it helps
     double left_out_weight = 0, displaced_weight = 0;  ///< how far the surface moves by each; together at most 1
     double not_denied = 1;                             ///< how far displacing lets the other count
 
@@ -49,44 +49,45 @@ struct Trial {
 
 /// What becomes of a drawing, its fit and an image.
 struct Question {
-    const Drawing& drawing;
-    const PreparedContours& prepared;
-    const FittedFunction& fitted;
+    const FittedDrawing& fit;
     const Image& image;
     const DrawnOnImage& drawn;
     const ImageOptions& options;
     const Work& work;
 
-    AskedSurface asked(const Beliefs& beliefs) const { return ask_surface(drawn, drawing, fitted, beliefs, options, work); }
-    ImageFit moved(AskedSurface surface) const {
-        return move_surface(std::move(surface), drawn, drawing, prepared, fitted, options, work);
+    SurfaceMovement movement(const Beliefs& beliefs) const {
+        return surface_movement(fit, drawn, beliefs, options.samples, work);
     }
-    std::optional<ImageFit> walked(const LeftOutPlanes& left_out, const std::optional<AskedSurface>& begin) const {
+    ImageFit fit_of(SurfaceMovement movement) const {
+        return move_surface(std::move(movement), fit, drawn, options.fit, work);
+    }
+    std::optional<ImageFit> fit_of_walk(const LeftOutPlanes& left_out, const std::optional<SurfaceMovement>& start) const {
         const Beliefs beliefs = left_out.errors.beliefs();
-        return walk_surface({left_out.cells, drawn.walls, beliefs}, drawing, prepared, fitted, begin ? &*begin : nullptr,
-                            options, drawn.image.voxel_mm(), work);
+        return walk_surface({left_out.cells, drawn.walls, beliefs, drawn.image.voxel_mm()}, fit, start ? &*start : nullptr,
+                            options, work);
     }
     /// From one function to that of a walk, as far as it is followed.
-    ImageFit towards(ImageFit walked, const ImageFit& from, double share) const {
-        if (share == 1) return walked;
-        walked.fitted = between(from.fitted, walked.fitted, share);
-        const double largest_mm = std::lerp(from.report.largest_move_mm, walked.report.largest_move_mm, share);
-        const bool is_moved_rather = share < 0.5 && from.report.verdict == ImageVerdict::used;
-        if (is_moved_rather) walked.report = from.report;  // what is told is what counts more
-        walked.report.on_contours_mm = largest_change(fitted.function, walked.fitted.function, drawing.contours, work);
-        walked.report.largest_move_mm = largest_mm;
-        return walked;
+    ImageFit between_fits(const ImageFit& first, ImageFit walk, double share) const {
+        if (share == 1) return walk;
+        walk.fitted = between(first.fitted, walk.fitted, share);
+        const double largest_mm = std::lerp(first.report.largest_move_mm, walk.report.largest_move_mm, share);
+        const bool is_moved_rather = share < 0.5 && first.report.verdict == ImageVerdict::used;
+        if (is_moved_rather) walk.report = first.report;  // the report is of what counts more
+        walk.report.on_contours_mm = largest_change(fit.fitted.function, walk.fitted.function, fit.drawing.contours, work);
+        walk.report.largest_move_mm = largest_mm;
+        return walk;
     }
-    ImageFit unchanged(ImageVerdict verdict) const { return {fitted, {.verdict = verdict}}; }
+    ImageFit unchanged(ImageVerdict verdict) const { return {fit.fitted, {.verdict = verdict}}; }
 };
 
-Trial try_image(const Question& asked, const FitContours& fit_contours) {
+Trial try_image(const Question& question, const FitContours& fit_contours) {
     Trial trial;
-    trial.left_out = leave_planes_out(asked.drawing, asked.image, fit_contours, asked.work);
+    const Drawing& drawing = question.fit.drawing;
+    trial.left_out = leave_planes_out(drawing, question.image, fit_contours, question.work);
     if (trial.left_out) trial.left_out_weight = trial.left_out->moving();
-    const bool are_few = contours_by_plane(asked.drawing.contours).size() <= kFewPlanes;
+    const bool are_few = contours_by_plane(drawing.contours).size() <= kFewPlanes;
     if (trial.left_out_weight == 1 && !are_few) return trial;
-    trial.displaced = displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
+    trial.displaced = displace_planes(drawing, question.image, question.fit.fitted.function, question.work);
     if (!trial.displaced) return trial;
     if (are_few) trial.not_denied = kNotDenied.at(trial.displaced->mended());
     trial.left_out_weight *= trial.not_denied;
@@ -95,24 +96,24 @@ Trial try_image(const Question& asked, const FitContours& fit_contours) {
 }
 
 /// Moved as far as that helps, and from there to where a walk leads, as far as that helps more.
-ImageFit follow(const Question& asked, const Trial& trial, double walking) {
-    std::optional<AskedSurface> surface;
-    if (trial.moving() > 0) surface = asked.asked(trial.beliefs());
-    const std::int64_t intensities = surface ? surface->movement.intensities : 0;
-    std::optional<ImageFit> walked;
-    if (walking > 0) walked = asked.walked(*trial.left_out, surface);
-    const bool is_astray = walking > 0 && !walked;
-    ImageFit result = asked.unchanged(is_astray          ? ImageVerdict::astray
-                                      : trial.deciding() ? ImageVerdict::no_help
-                                                         : ImageVerdict::unknown);
-    if (surface && !(walked && walking == 1)) result = asked.moved(*std::move(surface));
-    if (walked) result = asked.towards(*std::move(walked), result, walking);
+ImageFit follow(const Question& question, const Trial& trial, double walking) {
+    std::optional<SurfaceMovement> movement;
+    if (trial.moving() > 0) movement = question.movement(trial.beliefs());
+    const std::int64_t intensities = movement ? movement->movement.intensities : 0;
+    std::optional<ImageFit> walk;
+    if (walking > 0) walk = question.fit_of_walk(*trial.left_out, movement);
+    const bool is_astray = walking > 0 && !walk;
+    ImageFit result = question.unchanged(is_astray          ? ImageVerdict::astray
+                                         : trial.deciding() ? ImageVerdict::no_help
+                                                            : ImageVerdict::unknown);
+    if (movement && !(walk && walking == 1)) result = question.fit_of(*std::move(movement));
+    if (walk) result = question.between_fits(result, *std::move(walk), walking);
     result.report.intensities = intensities;
     return result;
 }
 
 /// With what it was decided by.
-void tell(const Trial& trial, double walking, ImageReport& report) {
+void describe(const Trial& trial, double walking, ImageReport& report) {
     const HeldOutErrors* deciding = trial.deciding();
     if (!deciding) return;
     report.displaced = deciding != (trial.left_out ? &trial.left_out->errors : nullptr);
@@ -125,34 +126,35 @@ void tell(const Trial& trial, double walking, ImageReport& report) {
     report.intensities += trial.left_out->cells.intensities;
     if (walking == 0) return;
     const WrongCells wrong = sum(trial.left_out->wrong);
-    report.wrong_without = wrong.alone / wrong.drawn;
-    report.wrong_with = wrong.walked / wrong.drawn;
+    report.wrong_without = wrong.by_contours / wrong.drawn;
+    report.wrong_with = wrong.by_walk / wrong.drawn;
     if (report.walked)
         for (ImageShare& point : report.shares) point.share = report.share_left();
 }
 
 }  // namespace
 
-ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                      const Image& image, const FitContours& fit_contours, const ImageOptions& options, const Work& work) {
+ImageFit follow_image(const FittedDrawing& fit, const Image& image, const FitContours& fit_contours,
+                      const ImageOptions& options, const Work& work) {
     check_image(image);
-    if (is_label_map(image)) return {fitted, {.verdict = ImageVerdict::labels}};
-    Drawing alike = drawing;
-    alike.contours = stored_alike(drawing.contours);
+    if (is_label_map(image)) return {fit.fitted, {.verdict = ImageVerdict::labels}};
+    Drawing alike = fit.drawing;
+    alike.contours = stored_alike(fit.drawing.contours);
     const DrawnOnImage drawn(alike, image);
-    const Question asked{alike, prepared, fitted, image, drawn, options, work};
+    const FittedDrawing fit_alike{alike, fit.prepared, fit.fitted};
+    const Question question{fit_alike, image, drawn, options, work};
     if (!options.gate) {
         const double voxel = drawn.image.voxel_mm();
         const Beliefs cautious{[](double d) { return kCautiousSlope * d; },
                                [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
-        ImageFit moved = asked.moved(asked.asked(cautious));
+        ImageFit moved = question.fit_of(question.movement(cautious));
         moved.report.weight = 1;
         return moved;
     }
-    const Trial trial = try_image(asked, fit_contours);
+    const Trial trial = try_image(question, fit_contours);
     const double walking = trial.walking();
-    ImageFit result = follow(asked, trial, walking);
-    tell(trial, walking, result.report);
+    ImageFit result = follow(question, trial, walking);
+    describe(trial, walking, result.report);
     return result;
 }
 

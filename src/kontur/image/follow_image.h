@@ -16,6 +16,13 @@ namespace kontur {
 /// Fits f to a part of the contours; coarsely will do.
 using FitContours = std::function<ImplicitFunction(const ContourSet& part)>;
 
+/// What was drawn, and the function through it.
+struct FittedDrawing {
+    const Drawing& drawing;
+    const PreparedContours& prepared;
+    const FittedFunction& fitted;
+};
+
 struct ImageOptions {
     FitOptions fit;             ///< as the contours were fitted
     bool gate = true;           ///< false: the image is used without having shown that it helps
@@ -34,8 +41,7 @@ struct ImageFit {
 /// points are more data with noise, beside those of the fit, of one more solve. An image that says nothing changes nothing.
 /// `fit_contours` fits a part of the drawing. The same bytes for any number of threads, on one type of processor. Throws
 /// Error as `solve` does, Error(invalid_input) as `check_image` does.
-ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                      const Image& image, const FitContours& fit_contours, const ImageOptions& options,
-                      const Work& work = {});
+ImageFit follow_image(const FittedDrawing& fit, const Image& image, const FitContours& fit_contours,
+                      const ImageOptions& options, const Work& work = {});
 
 }  // namespace kontur

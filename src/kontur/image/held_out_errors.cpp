@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 
 #include "kontur/sampling/quantile.h"
 
 namespace kontur {
 namespace {
 
-constexpr std::size_t kLeastPoints = 10;
 constexpr double kMeanOfDeviation = 0.7979;  // the mean of absolute values over the standard deviation, likewise
 constexpr double kSure = 1;                  // standard errors over the planes, of what is true
 constexpr Rise kSureGain{0, 1};              // and of the mean gain
@@ -26,18 +26,18 @@ double without_hand(double error, double hand) {
 
 }  // namespace
 
-void ToldByImage::add(double error_mm, double moved_mm, double weight) {
-    told_and_true += weight * moved_mm * error_mm;
-    told += weight * moved_mm * moved_mm;
+void OffsetTruth::add(double error_mm, double moved_mm, double weight) {
+    products += weight * moved_mm * error_mm;
+    squares += weight * moved_mm * moved_mm;
 }
 
 bool tell_enough(std::span<const PlaneErrors> planes) {
-    std::size_t points = 0, told = 0;
+    std::size_t points = 0, with_points = 0;
     for (const PlaneErrors& plane : planes) {
         points += plane.points.size();
-        told += !plane.points.empty();
+        with_points += !plane.points.empty();
     }
-    return points >= kLeastPoints && told >= 2;
+    return points >= kLeastPoints && with_points >= 2;
 }
 
 HeldOutErrors::HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs& beliefs, double limit_mm, double voxel_mm,
@@ -50,12 +50,12 @@ HeldOutErrors::HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs&
     }
     const double share = 1 / static_cast<double>(held_out_.size());
     std::vector<double> without, distances;
-    for (const HeldOut& h : held_out_) {
+    for (const HeldOutPoint& h : held_out_) {
         without.push_back(std::abs(limited(h.without_mm)));
         distances.push_back(h.distance_mm);
         without_mm_ += share * without.back();
         with_mm_ += share * std::abs(limited(h.with_mm));
-        add(h, share, told_);
+        add(h, share, truth_);
     }
     median_without_ = median(std::move(without));
     median_distance_ = median(std::move(distances));
@@ -65,7 +65,7 @@ HeldOutErrors::HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs&
 double HeldOutErrors::limited(double error_mm) const { return std::clamp(error_mm, -limit_mm_, limit_mm_); }
 
 /// Errors count by the deviation that is expected so far from the contours: where larger ones are, each tells less.
-void HeldOutErrors::add(const HeldOut& point, double weight, ToldByImage& sums) const {
+void HeldOutErrors::add(const HeldOutPoint& point, double weight, OffsetTruth& sums) const {
     const double expected = std::max(beliefs_.prior_mm(point.distance_mm), kLeastPrior * voxel_mm_);
     sums.add(limited(point.reachable_mm), point.moved_mm(), weight / (expected * expected));
 }
@@ -77,7 +77,7 @@ double HeldOutErrors::mended() const {
 }
 
 double HeldOutErrors::weight(const Rise& enough) const {
-    return believed(told_) > 0 ? enough.at(mended()) * weight_of_planes() : 0;
+    return believed(truth_) > 0 ? enough.at(mended()) * weight_of_planes() : 0;
 }
 
 double HeldOutErrors::seen(double edge_mm) const { return kSeen.at(without_mm_ / edge_mm); }
@@ -88,7 +88,7 @@ double HeldOutErrors::weight_of_planes() const {
         double mean() const { return gain_mm / points; }
     };
     std::map<std::size_t, Sum> planes;
-    for (const HeldOut& h : held_out_) {
+    for (const HeldOutPoint& h : held_out_) {
         planes[h.plane].points += 1;
         planes[h.plane].gain_mm += std::abs(limited(h.without_mm)) - std::abs(limited(h.with_mm));
     }
@@ -101,9 +101,9 @@ double HeldOutErrors::weight_of_planes() const {
 
 /// By the jackknife over the planes, since the points of a plane err together.
 double HeldOutErrors::error_of_share() const {
-    ToldByImage all;
-    std::map<std::size_t, ToldByImage> planes;
-    for (const HeldOut& h : held_out_) {
+    OffsetTruth all;
+    std::map<std::size_t, OffsetTruth> planes;
+    for (const HeldOutPoint& h : held_out_) {
         add(h, 1, all);
         add(h, 1, planes[h.plane]);
     }
@@ -111,7 +111,7 @@ double HeldOutErrors::error_of_share() const {
     std::vector<double> shares;
     double mean = 0, squares = 0;
     for (const auto& [plane, sums] : planes) {
-        shares.push_back(ToldByImage{all.told_and_true - sums.told_and_true, all.told - sums.told}.share());
+        shares.push_back(OffsetTruth{all.products - sums.products, all.squares - sums.squares}.share());
         mean += shares.back() / count;
     }
     for (const double share : shares) squares += (share - mean) * (share - mean);
@@ -119,35 +119,36 @@ double HeldOutErrors::error_of_share() const {
 }
 
 /// The share of what the image tells that is true, surely.
-double HeldOutErrors::believed(const ToldByImage& told) const {
-    return std::clamp(told.share() - kSure * error_of_share_, 0.0, 1.0);
+double HeldOutErrors::believed(const OffsetTruth& truth) const {
+    return std::clamp(truth.share() - kSure * error_of_share_, 0.0, 1.0);
 }
 
 Beliefs HeldOutErrors::beliefs(double weight) const {
-    return {beliefs_.prior_mm, [this, weight](const MovingPoint& point) { return image_sd(point, weight); }};
+    const auto errors = std::make_shared<const HeldOutErrors>(*this);
+    return {beliefs_.prior_mm, [errors, weight](const MovingPoint& point) { return errors->image_sd(point, weight); }};
 }
 
-std::vector<const HeldOut*> HeldOutErrors::nearest(const Vec3& place) const {
-    std::vector<std::pair<double, const HeldOut*>> apart;
-    for (const HeldOut& h : held_out_) apart.emplace_back(distance(place, h.position), &h);
+std::vector<const HeldOutPoint*> HeldOutErrors::nearest(const Vec3& place) const {
+    std::vector<std::pair<double, const HeldOutPoint*>> apart;
+    for (const HeldOutPoint& h : held_out_) apart.emplace_back(distance(place, h.position), &h);
     const std::size_t count = std::min(kNear, apart.size());
     std::partial_sort(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(count), apart.end());
-    std::vector<const HeldOut*> nearest;
+    std::vector<const HeldOutPoint*> nearest;
     for (std::size_t n = 0; n < count; ++n) nearest.push_back(apart[n].second);
     return nearest;
 }
 
 double HeldOutErrors::image_sd(const MovingPoint& point, double weight) const {
-    const std::vector<const HeldOut*> near = nearest(point.position);
+    const std::vector<const HeldOutPoint*> near = nearest(point.position);
     std::vector<double> errors;
-    ToldByImage told = told_;
-    for (const HeldOut* h : near) {
+    OffsetTruth truth = truth_;
+    for (const HeldOutPoint* h : near) {
         errors.push_back(std::abs(limited(h->without_mm)));
-        add(*h, 1 / static_cast<double>(near.size()), told);
+        add(*h, 1 / static_cast<double>(near.size()), truth);
     }
     const double error = without_hand(kDeviationOfMedian * 0.5 * (median(std::move(errors)) + median_without_), hand_mm_);
     // Of errors u and what an image that is off by e of its own tells, u + e, the share u^2 / (u^2 + e^2) is true.
-    const double share = weight * believed(told);
+    const double share = weight * believed(truth);
     if (share == 0) return std::numeric_limits<double>::infinity();
     // Held-out contours are about twice as far from others as what lies between all of them. Of what lies farther than they
     // did, less is known.

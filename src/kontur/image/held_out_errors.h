@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,8 +11,13 @@
 
 namespace kontur {
 
+/// One plane left out of fewer leaves too little of an object.
+inline constexpr std::size_t kFewestPlanes = 3;
+/// Of the drawing's diameter: from point to point of the surface through those that are left.
+inline constexpr double kFoldSpacing = 0.04;
+
 /// A point of a drawn contour and how far the surface through the contours of the other planes passes from it.
-struct HeldOut {
+struct HeldOutPoint {
     Vec3 position;        ///< mm
     double distance_mm;   ///< to the nearest contour of the other planes
     double without_mm;    ///< error of what the contours alone make, along the normal, positive outwards
@@ -25,20 +31,20 @@ struct HeldOut {
 
 /// What was found at the contours of one plane.
 struct PlaneErrors {
-    std::vector<HeldOut> points;
+    std::vector<HeldOutPoint> points;
     std::int64_t intensities = 0;  ///< read from the image
 };
 
 /// Whether they have points enough, in two planes at least, to tell how far off the surface is.
 bool tell_enough(std::span<const PlaneErrors> planes);
 
-/// How much is true of the offsets that the image tells: least squares of the errors of the contours alone on them. What the
+/// How much is true of the offsets that the image shows: least squares of the errors of the contours alone on them. What the
 /// hand adds to an error has nothing to do with the image and takes no part.
-struct ToldByImage {
-    double told_and_true = 0, told = 0;  ///< sums of products, weighted
+struct OffsetTruth {
+    double products = 0, squares = 0;  ///< of the offsets with the errors, and their own; weighted sums
 
     void add(double error_mm, double moved_mm, double weight);
-    double share() const { return told > 0 ? told_and_true / told : 0; }
+    double share() const { return squares > 0 ? products / squares : 0; }
 };
 
 /// Measured on the drawn contours themselves: how far off the surface between them is, without the image and with it.
@@ -65,26 +71,26 @@ public:
     /// quarter of one, 1 from half of one on. Contours that hold the surface better than that have nothing to ask.
     double seen(double edge_mm) const;
     double seen() const { return seen(voxel_mm_); }
-    /// What is true of the image's offsets counts that much only.
+    /// What is true of the image's offsets counts that much only. The result refers to nothing.
     Beliefs beliefs(double weight = 1) const;
 
 private:
     double weight_of_planes() const;
     double error_of_share() const;
-    double believed(const ToldByImage& told) const;
+    double believed(const OffsetTruth& truth) const;
     double image_sd(const MovingPoint& point, double weight) const;
     double limited(double error_mm) const;
-    void add(const HeldOut& point, double weight, ToldByImage& sums) const;
-    std::vector<const HeldOut*> nearest(const Vec3& place) const;
+    void add(const HeldOutPoint& point, double weight, OffsetTruth& sums) const;
+    std::vector<const HeldOutPoint*> nearest(const Vec3& place) const;
 
-    std::vector<HeldOut> held_out_;
+    std::vector<HeldOutPoint> held_out_;
     Beliefs beliefs_;
     double limit_mm_, voxel_mm_, hand_mm_;
     std::size_t planes_ = 0;
     std::int64_t intensities_ = 0;
     double without_mm_ = 0, with_mm_ = 0;
     double median_without_ = 0, median_distance_ = 0;
-    ToldByImage told_;           ///< a point, on the average
+    OffsetTruth truth_;          ///< a point, on the average
     double error_of_share_ = 0;  ///< standard error of its share
 };
 

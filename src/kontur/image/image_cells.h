@@ -24,10 +24,7 @@ struct ImageCells {
         const Affine3& to_mm = grid.index_to_mm;
         return {0.5 * to_mm.column(0), 0.5 * to_mm.column(1), 0.5 * to_mm.column(2)};
     }
-    Index3 index(std::size_t cell) const {
-        const auto n = static_cast<std::int64_t>(cell);
-        return {n % grid.size.i, n / grid.size.i % grid.size.j, n / (grid.size.i * grid.size.j)};
-    }
+    Index3 index(std::size_t cell) const { return index_at(cell, grid.size); }
     std::size_t offset(const Index3& at) const { return grid.offset(at.i, at.j, at.k); }
     bool holds(const Index3& at) const {
         return at.i >= 0 && at.j >= 0 && at.k >= 0 && at.i < grid.size.i && at.j < grid.size.j && at.k < grid.size.k;

@@ -51,4 +51,23 @@ struct ImageReport {
 /// One sentence for people.
 std::string sentence(const ImageReport& report);
 
+/// Calls visit(key, value) for all that files say of the image, in their order; of one that was not asked only its verdict.
+template <class Visit>
+void visit_facts(const ImageReport& image, const Visit& visit) {
+    visit("verdict", name(image.verdict));
+    if (image.verdict == ImageVerdict::none) return;
+    visit("sentence", sentence(image));
+    visit("planes_left_out", image.planes_left_out);
+    visit("displaced", image.displaced);
+    visit("walked", image.walked);
+    visit("weight", image.weight);
+    visit("wrong_without", image.wrong_without);
+    visit("wrong_with", image.wrong_with);
+    visit("error_without_mm", image.error_without_mm);
+    visit("error_with_mm", image.error_with_mm);
+    visit("largest_move_mm", image.largest_move_mm);
+    visit("intensities", image.intensities);
+    visit("on_contours_mm", image.on_contours_mm);
+}
+
 }  // namespace kontur

@@ -62,8 +62,7 @@ bool is_label_map(const Image& image) {
 }
 
 Intensities::Intensities(const Image& image) : image_(&image), mm_to_index_(image.grid.index_to_mm.inverse()) {
-    const Vec3 spacing = image.grid.spacing_mm();
-    voxel_mm_ = std::min({spacing.x, spacing.y, spacing.z});
+    voxel_mm_ = smallest(image.grid.spacing_mm());
     step_mm_ = 0.5 * std::min(std::cbrt(image.grid.voxel_volume_mm3()), 2 * voxel_mm_);
 }
 

@@ -16,11 +16,9 @@
 namespace kontur {
 namespace {
 
-constexpr std::size_t kMostPlanes = 10, kLeastPoints = 10;
-constexpr std::size_t kFewestPlanes = 3;
+constexpr std::size_t kMostPlanes = 10;
 constexpr std::size_t kSamples = 300;
 constexpr double kHeldOutPoints = 500;       // of all planes together
-constexpr double kSurfaceSpacing = 0.04;     // of the drawing's diameter
 constexpr double kAskedBeside = 8;           // cells beside the plane left out: walks from farther off hardly reach it
 constexpr std::size_t kMostCells = 150'000;  // of the lattice for walks
 
@@ -35,18 +33,32 @@ struct Fold {
     std::vector<double> errors_mm;        ///< how far the surface has to move there
 };
 
-std::optional<Fold> leave_out(const ContourSet& drawn, const PlaneGroup& group, const Image& image, const FitContours& fit,
-                              double step_mm, const Work& alone) {
+/// What all folds are made from.
+struct FoldSource {
+    const ContourSet& drawn;
+    const Image& image;
+    const FitContours& fit;
+    double step_mm;  ///< from one held-out point to the next
+};
+
+std::optional<Fold> leave_out(const FoldSource& source, const PlaneGroup& group, const Work& alone) {
     try {
-        const Drawing rest(without(drawn, group), FillRule::declared);
-        Fold fold{only(drawn, group), rest.contours, fit(rest.contours), DrawnOnImage(rest, image), {}, {}, {}, {}};
-        const double spacing = kSurfaceSpacing * rest.diameter_mm();
+        const Drawing rest(without(source.drawn, group), FillRule::declared);
+        Fold fold{only(source.drawn, group),
+                  rest.contours,
+                  source.fit(rest.contours),
+                  DrawnOnImage(rest, source.image),
+                  {},
+                  {},
+                  {},
+                  {}};
+        const double spacing = kFoldSpacing * rest.diameter_mm();
         fold.samples =
             spread(points_of_surface(fold.function, rest.contours, spacing, alone), kSamples, frame_of(rest.contours));
         if (fold.samples.size() < kLeastPoints) return std::nullopt;
         slide_to_surface(fold.function, fold.samples, {.reach_mm = spacing}, alone);
         alone.check();
-        fold.held_out = along_contours(fold.plane, step_mm);
+        fold.held_out = along_contours(fold.plane, source.step_mm);
         std::vector<Vec3> nearest = fold.held_out;
         slide_to_surface(fold.function, nearest, {.reach_mm = 0.25 * rest.diameter_mm(), .steps = 3}, alone);
         fold.on_surface = with_normals(fold.function, nearest, alone);
@@ -99,12 +111,11 @@ PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beli
 
 /// Which cells in the plane are on the wrong side: by the fold's surface, by that moved, and by a walk that begins with the
 /// surface moved as far as the image is followed.
-WrongCells walk(const Fold& fold, const Movement& movement, const ImageCells& cells, const Beliefs& beliefs, double moving,
-                const Work& alone) {
+WrongCells walk(const Fold& fold, const MovedSurface& surface, const ImageCells& cells, double moving, const Work& alone) {
     const CellSlab near{fold.plane.contours.front().plane, kAskedBeside * cells.edge_mm()};
     const CellDepths depths = cell_depths(cells, fold.function, fold.rest, alone, Doubts::left);
-    const CellDepths moved = moved_depths(depths, cells, fold.function, movement, beliefs, near, alone);
-    const WalkOptions options{fold.others.walls, beliefs.prior_mm, smallest_ball(fold.rest).diameter(), near};
+    const CellDepths moved = moved_depths(depths, cells, surface, near, alone);
+    const WalkOptions options{fold.others.walls, surface.beliefs.prior_mm, smallest_ball(fold.rest).diameter(), near};
     const VoxelWalk walk = walk_voxels(cells, between(depths, moved, moving), options, alone);
     return count_wrong(fold.plane, cells, depths, moved, walk);
 }
@@ -117,12 +128,12 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     const std::vector<PlaneGroup> groups = at_most(kMostPlanes, contours_by_plane(drawn));
     if (groups.size() < kFewestPlanes) return std::nullopt;
     const double voxel = Intensities(image).voxel_mm();
-    const double step = std::max(voxel, length_mm(drawn) / kHeldOutPoints);
+    const FoldSource source{drawn, image, fit, std::max(voxel, length_mm(drawn) / kHeldOutPoints)};
     std::vector<std::optional<Fold>> folds(groups.size());
     const Work alone{.threads = 1, .stop = work.stop};  // folds are computed beside each other
     parallel_for(static_cast<std::int64_t>(groups.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-            folds[i] = leave_out(drawn, groups[i], image, fit, step, alone);
+            folds[i] = leave_out(source, groups[i], alone);
     });
     const std::optional<PlainErrors> plain = plain_errors(folds, voxel);
     if (!plain) return std::nullopt;
@@ -146,7 +157,9 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     const double moving = left_out.moving();
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-            if (folds[i]) left_out.wrong[i] = walk(*folds[i], movements[i], left_out.cells, beliefs, moving, alone);
+            if (folds[i])
+                left_out.wrong[i] =
+                    walk(*folds[i], {folds[i]->function, movements[i], beliefs}, left_out.cells, moving, alone);
     });
     return left_out;
 }

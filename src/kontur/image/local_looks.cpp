@@ -74,7 +74,8 @@ Sides sides_at(const Vec3& place, const std::vector<LookExample>& examples, cons
 
 }  // namespace
 
-LocalLooks::LocalLooks(std::vector<LookExample> examples, double reach_mm, const Grid& around, std::span<const Vec3> asked) {
+LocalLooks::LocalLooks(std::vector<LookExample> examples, double reach_mm, const Grid& around,
+                       std::span<const Vec3> places) {
     std::erase_if(examples, [](const LookExample& e) { return !std::isfinite(e.look); });
     Sides all;
     std::size_t inside = 0;
@@ -94,11 +95,11 @@ LocalLooks::LocalLooks(std::vector<LookExample> examples, double reach_mm, const
     }
     mm_to_node_ = node_to_mm.inverse();
     nodes_.resize(static_cast<std::size_t>(size_.i * size_.j * size_.k));
-    std::vector<std::uint8_t> is_asked(nodes_.size());
-    for (const Vec3& p : asked)
-        for (int c = 0; c < 8; ++c) is_asked[corner(cell_of(p), c)] = 1;
+    std::vector<std::uint8_t> is_needed(nodes_.size());
+    for (const Vec3& p : places)
+        for (int c = 0; c < 8; ++c) is_needed[corner(cell_of(p), c)] = 1;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
-        if (!is_asked[n]) continue;
+        if (!is_needed[n]) continue;
         const auto at = static_cast<std::int64_t>(n);
         const Vec3 place = node_to_mm.apply({static_cast<double>(at % size_.i), static_cast<double>(at / size_.i % size_.j),
                                              static_cast<double>(at / size_.i / size_.j)});

@@ -23,7 +23,7 @@ class LocalLooks {
 public:
     /// `reach_mm`: standard deviation of the Gaussian. The lattice covers `around`, a grid of cubes, and has its axes; only
     /// at places in `asked` (mm) is anything known.
-    LocalLooks(std::vector<LookExample> examples, double reach_mm, const Grid& around, std::span<const Vec3> asked);
+    LocalLooks(std::vector<LookExample> examples, double reach_mm, const Grid& around, std::span<const Vec3> places);
 
     /// The logarithm of how much likelier a look is inside than outside; 0 where it is not finite or nothing is known.
     double log_odds(const Vec3& point_mm, float look) const;

@@ -47,8 +47,8 @@ double change_near(const Movement& movement, const Vec3& place) {
 }
 
 /// Where moving points would meet a drawn plane: f stays there what the contours make of it.
-std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImage& drawn, const ImplicitFunction& fitted,
-                                     const Work& work) {
+std::vector<PointConstraint> anchors_in_planes(const Movement& movement, const DrawnOnImage& drawn,
+                                               const ImplicitFunction& fitted, const Work& work) {
     const double voxel = drawn.image.voxel_mm();
     std::vector<Vec3> places;
     for (const MovingPoint& p : movement.points)
@@ -61,18 +61,18 @@ std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImag
         }
     std::vector<double> values(places.size());
     fitted.values(places, values, work);
-    std::vector<PointConstraint> held;
+    std::vector<PointConstraint> anchors;
     for (std::size_t i = 0; i < places.size(); ++i)
-        held.push_back({.position = places[i], .value = values[i], .noise_mm = kAnchorNoise * voxel});
-    return held;
+        anchors.push_back({.position = places[i], .value = values[i], .noise_mm = kAnchorNoise * voxel});
+    return anchors;
 }
 
 /// Outside of the surface f changes as beneath.
-std::vector<PointConstraint> outside(const Movement& movement, const FittedFunction& fitted, const Affine3& frame,
-                                     double radius_mm) {
+std::vector<PointConstraint> changes_outside(const Movement& movement, const FittedFunction& fitted, const Affine3& frame,
+                                             double radius_mm) {
     std::vector<Vec3> surface;
     for (const MovingPoint& p : movement.points) surface.push_back(p.position);
-    std::vector<PointConstraint> told;
+    std::vector<PointConstraint> changes;
     for (const OutsideShell& shell : kOutsideShells) {
         const double above = shell.radii * radius_mm;
         std::vector<Vec3> places;
@@ -82,9 +82,9 @@ std::vector<PointConstraint> outside(const Movement& movement, const FittedFunct
                 places.push_back(place);
         }
         for (const Vec3& place : spread(places, shell.places, frame))
-            told.push_back({.position = place, .value = change_near(movement, place), .noise_mm = kOutsideNoise * above});
+            changes.push_back({.position = place, .value = change_near(movement, place), .noise_mm = kOutsideNoise * above});
     }
-    return told;
+    return changes;
 }
 
 std::vector<ImageShare> image_shares(const Movement& movement) {
@@ -116,42 +116,44 @@ void hold_back(Movement& movement, std::span<const Vec3> places) {
 
 }  // namespace
 
-AskedSurface ask_surface(const DrawnOnImage& drawn, const Drawing& drawing, const FittedFunction& fitted,
-                         const Beliefs& beliefs, const ImageOptions& options, const Work& work) {
-    AskedSurface asked{{}, kSurfaceSpacing * drawing.diameter_mm(), beliefs, {}};
-    asked.points = points_of_surface(fitted.function, drawing.contours, asked.spacing_mm, work);
-    std::vector<Vec3> points = spread(asked.points, options.samples, frame_of(drawing.contours));
-    slide_to_surface(fitted.function, points, {.reach_mm = asked.spacing_mm}, work);
+SurfaceMovement surface_movement(const FittedDrawing& fit, const DrawnOnImage& drawn, const Beliefs& beliefs,
+                                 std::size_t samples, const Work& work) {
+    const ContourSet& contours = fit.drawing.contours;
+    const ImplicitFunction& function = fit.fitted.function;
+    SurfaceMovement surface{{}, kSurfaceSpacing * fit.drawing.diameter_mm(), beliefs, {}};
+    surface.points = points_of_surface(function, contours, surface.spacing_mm, work);
+    std::vector<Vec3> points = spread(surface.points, samples, frame_of(contours));
+    slide_to_surface(function, points, {.reach_mm = surface.spacing_mm}, work);
     work.check();
-    asked.movement = find_movement(drawn, fitted.function, points, beliefs, work);
-    return asked;
+    surface.movement = find_movement(drawn, function, points, beliefs, work);
+    return surface;
 }
 
 /// The image is asked once, as it was where contours were left out: asked again from the moved surface it would be believed
 /// twice.
-ImageFit move_surface(AskedSurface asked, const DrawnOnImage& drawn, const Drawing& drawing,
-                      const PreparedContours& prepared, const FittedFunction& fitted, const ImageOptions& options,
-                      const Work& work) {
-    const double voxel = drawn.image.voxel_mm(), spacing = asked.spacing_mm;
-    Movement& movement = asked.movement;
+ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const DrawnOnImage& drawn,
+                      const FitOptions& options, const Work& work) {
+    const auto& [drawing, prepared, fitted] = fit;
+    const double voxel = drawn.image.voxel_mm(), spacing = surface.spacing_mm;
+    Movement& movement = surface.movement;
     ImageFit result{fitted, {}};
     result.report.intensities = movement.intensities;
     result.report.verdict = ImageVerdict::used;
     if (movement.points.empty()) return result;
 
-    const SearchedBand band = searched_band(asked.points, drawn, asked.beliefs, spacing);
-    const std::vector<PointConstraint> held = anchors(movement, drawn, fitted.function, work);
-    Refit refit(prepared, fitted, options.fit, voxel);
+    const SearchedBand band = searched_band(surface.points, drawn, surface.beliefs, spacing);
+    const std::vector<PointConstraint> anchors = anchors_in_planes(movement, drawn, fitted.function, work);
+    Refit refit(prepared, fitted, options, voxel);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         work.check();
-        ImageData told{observations(movement, fitted.function, voxel, work),
-                       outside(movement, fitted, frame_of(drawing.contours), drawing.diameter_mm() / 2),
+        ImageData data{observations(movement, fitted.function, voxel, work),
+                       changes_outside(movement, fitted, frame_of(drawing.contours), drawing.diameter_mm() / 2),
                        [&](const Vec3& p) { return change_near(movement, p); }};
-        told.values.insert(told.values.end(), held.begin(), held.end());
-        FittedFunction moved = refit.with(told, work);
-        const std::vector<Vec3> left =
+        data.values.insert(data.values.end(), anchors.begin(), anchors.end());
+        FittedFunction moved = refit.with(data, work);
+        const std::vector<Vec3> strays =
             band.left_from(points_of_surface(moved.function, drawing.contours, spacing, work), work);
-        if (left.empty()) {
+        if (strays.empty()) {
             result.fitted = std::move(moved);
             result.report.on_contours_mm = largest_change(fitted.function, result.fitted.function, drawing.contours, work);
             result.report.shares = image_shares(movement);
@@ -159,7 +161,7 @@ ImageFit move_surface(AskedSurface asked, const DrawnOnImage& drawn, const Drawi
                 result.report.largest_move_mm = std::max(result.report.largest_move_mm, std::abs(u));
             return result;
         }
-        hold_back(movement, left);
+        hold_back(movement, strays);
     }
     result.report.verdict = ImageVerdict::astray;
     return result;

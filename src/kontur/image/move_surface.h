@@ -7,20 +7,20 @@
 namespace kontur {
 
 /// The surface through the contours, and how far the image moves it.
-struct AskedSurface {
+struct SurfaceMovement {
     std::vector<Vec3> points;  ///< close together
     double spacing_mm = 0;     ///< of the lattice that they are from
-    Beliefs beliefs;           ///< with which the image was asked
+    Beliefs beliefs;           ///< with which the movement was found
     Movement movement;         ///< of some of them
 };
 
-AskedSurface ask_surface(const DrawnOnImage& drawn, const Drawing& drawing, const FittedFunction& fitted,
-                         const Beliefs& beliefs, const ImageOptions& options, const Work& work);
+/// `samples`: about so many points of the surface are moved.
+SurfaceMovement surface_movement(const FittedDrawing& fit, const DrawnOnImage& drawn, const Beliefs& beliefs,
+                                 std::size_t samples, const Work& work);
 
 /// Moves the surface to where the image shows the border, as far as that is believed, by one more solve. Verdict: used, or
 /// astray.
-ImageFit move_surface(AskedSurface asked, const DrawnOnImage& drawn, const Drawing& drawing,
-                      const PreparedContours& prepared, const FittedFunction& fitted, const ImageOptions& options,
-                      const Work& work);
+ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const DrawnOnImage& drawn,
+                      const FitOptions& options, const Work& work);
 
 }  // namespace kontur

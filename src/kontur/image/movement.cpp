@@ -14,8 +14,7 @@ namespace {
 
 constexpr double kMostPoints = 4000, kMostExamples = 700;  // along the contours
 constexpr double kOnContour = 0.75;                        // voxels: nearer points stay where they are
-constexpr std::size_t kLeastPoints = 10;
-constexpr double kCorrelation = 0.8;  // of the median distance to the contours, at least two voxels
+constexpr double kCorrelation = 0.8;                       // of the median distance to the contours, at least two voxels
 constexpr int kLeastSteps = 3, kMostSteps = 24;
 constexpr double kWallSoftness = 0.25;  // steps
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -40,6 +41,7 @@ struct Movement {
     std::int64_t intensities = 0;  ///< read from the image
 };
 
+inline constexpr std::size_t kLeastPoints = 10;  ///< of a surface, and of errors: fewer tell nothing
 inline constexpr double kLeastPrior = 0.08;      ///< voxels: no offset is known better than this beforehand
 inline constexpr double kMostPriorSlope = 0.25;  ///< prior standard deviation over the distance from the contours
 inline constexpr double kSearched = 2.5;         ///< prior standard deviations to each side: no offset beyond is considered

@@ -73,7 +73,7 @@ bool may_tell_outside(const FittedFunction& fitted, const Vec3& place) {
 }
 
 Refit::Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options, double spacing_mm)
-    : prepared_(prepared), fitted_(fitted), options_(options) {
+    : prepared_(prepared), fitted_(fitted), options_(resolved(options, prepared.ball.diameter())) {
     const auto most = static_cast<std::size_t>(std::ceil(length_mm(prepared.points) / (kBetween * spacing_mm)));
     for (const std::size_t i : thin(prepared.points, std::max<std::size_t>(most, 1))) {
         points_.push_back(prepared.points[i]);
@@ -82,16 +82,16 @@ Refit::Refit(const PreparedContours& prepared, const FittedFunction& fitted, con
     }
     // Fewer points weigh as much against smoothness as all would.
     const double share = static_cast<double>(points_.size()) / static_cast<double>(prepared.points.size());
-    options_.solve.smoothing *= share;
-    options_.place.slope_noise *= std::sqrt(share);
-    options_.solve.tolerance_mm = std::max(options.solve.tolerance_mm, kTolerance * spacing_mm);
+    *options_.solve.smoothing *= share;
+    *options_.slope_noise *= std::sqrt(share);
+    options_.solve.tolerance_mm = std::max(*options_.solve.tolerance_mm, kTolerance * spacing_mm);
     options_.solve.ball = Ball3{fitted.function.frame().center, fitted.function.frame().scale};
     options_.solve.mean_radii = 0;
-    known_ = place_constraints(points_, slopes_, {}, options_.place).constraints.size();
+    known_ = place_constraints(points_, slopes_, {}, place_options(options_)).constraints.size();
 }
 
-FittedFunction Refit::with(const ImageData& told, const Work& work) const {
-    PlacedConstraints placed = place_constraints(points_, slopes_, changes(told, work), options_.place);
+FittedFunction Refit::with(const ImageData& data, const Work& work) const {
+    PlacedConstraints placed = place_constraints(points_, slopes_, changes(data, work), place_options(options_));
     std::fill_n(placed.constraints.values.begin(), known_, 0.0);
     const Solution change = solve(placed.constraints, options_.solve, work);
     FittedFunction result = fitted_;
@@ -103,19 +103,19 @@ FittedFunction Refit::with(const ImageData& told, const Work& work) const {
 }
 
 /// What is known of g besides the contours.
-std::vector<PointConstraint> Refit::changes(const ImageData& told, const Work& work) const {
-    std::vector<PointConstraint> changes = fitted_.held;
-    for (PointConstraint& held : changes) held.value = change_at(bound_at(held.position), told.change_mm(held.position));
+std::vector<PointConstraint> Refit::changes(const ImageData& data, const Work& work) const {
+    std::vector<PointConstraint> changes = fitted_.active_bounds;
+    for (PointConstraint& held : changes) held.value = change_at(bound_at(held.position), data.change_mm(held.position));
     std::vector<Vec3> places;
-    for (const PointConstraint& one : told.values) places.push_back(one.position);
+    for (const PointConstraint& one : data.values) places.push_back(one.position);
     std::vector<double> before(places.size());
     // Without f's fall: that of the sum begins beyond these places, which are centres of it.
     fitted_.function.sums_at(PointArrays(fitted_.function.frame().to_unit(places)), before, work);
     for (std::size_t i = 0; i < before.size(); ++i) {
-        changes.push_back(told.values[i]);
+        changes.push_back(data.values[i]);
         changes.back().value -= before[i];
     }
-    changes.insert(changes.end(), told.changes.begin(), told.changes.end());
+    changes.insert(changes.end(), data.changes.begin(), data.changes.end());
     return changes;
 }
 

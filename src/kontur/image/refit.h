@@ -38,10 +38,10 @@ public:
     /// Keeps references to `prepared`, and to `fitted`, a fit to it.
     Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options, double spacing_mm);
 
-    FittedFunction with(const ImageData& told, const Work& work) const;
+    FittedFunction with(const ImageData& data, const Work& work) const;
 
 private:
-    std::vector<PointConstraint> changes(const ImageData& told, const Work& work) const;
+    std::vector<PointConstraint> changes(const ImageData& data, const Work& work) const;
     const Bound& bound_at(const Vec3& place) const;
 
     const PreparedContours& prepared_;

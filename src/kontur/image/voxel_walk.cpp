@@ -6,6 +6,7 @@
 
 #include "kontur/image/local_looks.h"
 #include "kontur/image/random_walk.h"
+#include "kontur/sampling/place_in_turn.h"
 
 namespace kontur {
 namespace {
@@ -23,14 +24,6 @@ constexpr float kLeastStep = 1e-3F;
 constexpr double kLogistic = 1.7;   // the logistic function that is like the normal distribution's
 constexpr double kExamples = 2000;  // about so many of looks
 
-/// A number in [0, 1) for every cell, evenly in whatever part of the lattice: those below a share of 1 are this share of the
-/// cells, and one cell more or less leaves the others as they are. Source: the additive recurrence of Roberts 2018.
-double place_in_turn(const Index3& at) {
-    const double sum = 0.8191725133961645 * static_cast<double>(at.i) + 0.6710436067037893 * static_cast<double>(at.j) +
-                       0.5497004779019703 * static_cast<double>(at.k);
-    return sum - std::floor(sum);
-}
-
 class Walker {
 public:
     Walker(const ImageCells& cells, const CellDepths& depths, const WalkOptions& options)
@@ -41,18 +34,18 @@ public:
 
     VoxelWalk walk(const Work& work) {
         find_band();
-        if (walk_.asked.empty()) return std::move(walk_);
+        if (walk_.band.empty()) return std::move(walk_);
         work.check();
         const LocalLooks looks = looks_of_planes();
         work.check();
         const std::vector<double> inside = walk_inside(places(looks), kTolerance, work);
-        for (std::size_t n = 0; n < inside.size(); ++n) walk_.inside[walk_.asked[n]] = static_cast<float>(inside[n]);
+        for (std::size_t n = 0; n < inside.size(); ++n) walk_.inside[walk_.band[n]] = static_cast<float>(inside[n]);
         for (const bool side : {true, false}) leave_out_islands(side);
         return std::move(walk_);
     }
 
 private:
-    bool is_asked(std::size_t cell) const { return number_[cell] != WalkPlace::kNowhere; }
+    bool is_in_band(std::size_t cell) const { return number_[cell] != WalkPlace::kNowhere; }
 
     void find_band() {
         const std::array<Vec3, 3> half_edges = cells_.half_edges();
@@ -65,8 +58,8 @@ private:
                 examples_.push_back(n);
             } else if (depth <= kReach * options_.prior_mm(static_cast<double>(depths_.far_mm[n])) + least &&
                        options_.near.holds(p) && !options_.walls.is_beyond_end(p)) {
-                number_[n] = static_cast<std::int32_t>(walk_.asked.size());
-                walk_.asked.push_back(static_cast<std::uint32_t>(n));
+                number_[n] = static_cast<std::int32_t>(walk_.band.size());
+                walk_.band.push_back(static_cast<std::uint32_t>(n));
             }
         }
     }
@@ -77,9 +70,9 @@ private:
         for (const std::size_t n : examples_)
             if (place_in_turn(cells_.index(n)) < share)
                 some.push_back({cells_.center(n), cells_.looks[n], depths_.is_inside(n)});
-        std::vector<Vec3> asked;
-        for (const std::uint32_t cell : walk_.asked) asked.push_back(cells_.center(cell));
-        return {std::move(some), kLooks * options_.diameter_mm, cells_.grid, asked};
+        std::vector<Vec3> centers;
+        for (const std::uint32_t cell : walk_.band) centers.push_back(cells_.center(cell));
+        return {std::move(some), kLooks * options_.diameter_mm, cells_.grid, centers};
     }
 
     float step(std::size_t from, std::size_t to) const {
@@ -99,13 +92,13 @@ private:
 
     std::vector<WalkPlace> places(const LocalLooks& looks) const {
         std::vector<WalkPlace> places;
-        for (const std::uint32_t cell : walk_.asked) {
+        for (const std::uint32_t cell : walk_.band) {
             WalkPlace place;
             place.ends = kTie;
             place.ends_inside = kTie * likely(cell, looks);
             cells_.visit_neighbours(cell, [&](int side, std::size_t next) {
                 const float weight = step(cell, next);
-                if (is_asked(next)) {
+                if (is_in_band(next)) {
                     place.next[static_cast<std::size_t>(side)] = number_[next];
                     place.weight[static_cast<std::size_t>(side)] = weight;
                 } else {
@@ -127,25 +120,25 @@ private:
             reached[cell] = 1;
             front.push_back(cell);
         };
-        for (const std::uint32_t cell : walk_.asked)
+        for (const std::uint32_t cell : walk_.band)
             cells_.visit_neighbours(cell, [&](int, std::size_t next) {
-                if (!is_asked(next)) reach(next);
+                if (!is_in_band(next)) reach(next);
             });
         while (!front.empty()) {
             const std::size_t cell = front.back();
             front.pop_back();
             cells_.visit_neighbours(cell, [&](int, std::size_t next) {
-                if (is_asked(next)) reach(next);
+                if (is_in_band(next)) reach(next);
             });
         }
-        for (const std::uint32_t cell : walk_.asked)
+        for (const std::uint32_t cell : walk_.band)
             if (walk_.is_inside(cell) == side && !reached[cell]) walk_.inside[cell] = 1 - walk_.inside[cell];
     }
 
     const ImageCells& cells_;
     const CellDepths& depths_;
     const WalkOptions& options_;
-    std::vector<std::int32_t> number_;   // of each cell among those asked
+    std::vector<std::int32_t> number_;   // of each cell in the band
     std::vector<std::size_t> examples_;  // cells in drawn planes
     VoxelWalk walk_;
 };

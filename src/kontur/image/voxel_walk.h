@@ -12,8 +12,8 @@ namespace kontur {
 
 /// What is inside by a random walk on the image's cells, in a band about a surface.
 struct VoxelWalk {
-    std::vector<float> inside;         ///< of each cell the probability; 0 or 1 where nothing is asked
-    std::vector<std::uint32_t> asked;  ///< the cells of the band, in memory order
+    std::vector<float> inside;        ///< of each cell the probability; 0 or 1 beyond the band
+    std::vector<std::uint32_t> band;  ///< its cells, in memory order
 
     bool is_inside(std::size_t cell) const { return inside[cell] > 0.5F; }
 };
@@ -23,7 +23,7 @@ struct WalkOptions {
     const Walls& walls;
     std::function<double(double distance_mm)> prior_mm;  ///< standard deviation of the surface so far from the contours
     double diameter_mm;                                  ///< of the drawing
-    CellSlab near{};                                     ///< nothing is asked beyond
+    CellSlab near{};                                     ///< the band ends there, too
 };
 
 /// Seeds are the cells of the drawn planes and all beyond the band, which is as wide as errors of three standard deviations;

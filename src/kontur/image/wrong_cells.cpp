@@ -13,7 +13,6 @@
 namespace kontur {
 namespace {
 
-constexpr double kBeside = 1e-6;  // edges: a plane between two layers of cells is in both, however they are rounded
 // What shows that an image helps of which moving has not shown it: standard errors over the planes, one of which, but for
 // rounding, is what a single plane makes, however many say nothing; and the share of wrong cells that it mends, which images
 // beside the drawing do not (docs/decisions/0014-walk-on-voxels.md).
@@ -47,15 +46,15 @@ WrongCells count_wrong(const ContourSet& left_out, const ImageCells& cells, cons
     const SectionSearch search(section);
     double reach = 0;
     for (int axis = 0; axis < 3; ++axis)
-        reach += (0.5 + kBeside) * std::abs(dot(section.plane.normal, cells.grid.index_to_mm.column(axis)));
+        reach += (0.5 + kBetweenCells) * std::abs(dot(section.plane.normal, cells.grid.index_to_mm.column(axis)));
     for (std::size_t n = 0; n < cells.looks.size(); ++n) {
         const Vec3 p = cells.center(n);
         if (std::abs(section.plane.distance_to(p)) > reach) continue;
         const bool drawn = search.contains(section.plane.to_uv(p));
         wrong.drawn += drawn;
-        wrong.alone += alone.is_inside(n) != drawn;
-        wrong.moved += moved.is_inside(n) != drawn;
-        wrong.walked += walk.is_inside(n) != drawn;
+        wrong.by_contours += alone.is_inside(n) != drawn;
+        wrong.by_movement += moved.is_inside(n) != drawn;
+        wrong.by_walk += walk.is_inside(n) != drawn;
     }
     return wrong;
 }
@@ -63,9 +62,9 @@ WrongCells count_wrong(const ContourSet& left_out, const ImageCells& cells, cons
 WrongCells sum(std::span<const WrongCells> planes) {
     WrongCells all;
     for (const WrongCells& plane : planes) {
-        all.alone += plane.alone;
-        all.moved += plane.moved;
-        all.walked += plane.walked;
+        all.by_contours += plane.by_contours;
+        all.by_movement += plane.by_movement;
+        all.by_walk += plane.by_walk;
         all.drawn += plane.drawn;
     }
     return all;
@@ -75,14 +74,14 @@ double walk_weight(std::span<const WrongCells> planes, double moving) {
     std::vector<double> over_alone, over_base;
     for (const WrongCells& plane : planes) {
         if (plane.drawn == 0) continue;
-        over_alone.push_back(plane.alone - plane.walked);
-        over_base.push_back(std::lerp(plane.alone, plane.moved, moving) - plane.walked);
+        over_alone.push_back(plane.by_contours - plane.by_walk);
+        over_base.push_back(std::lerp(plane.by_contours, plane.by_movement, moving) - plane.by_walk);
     }
     if (over_alone.size() < kLeastPlanesTelling) return 0;
     const WrongCells all = sum(planes);
-    const double mended = all.alone > 0 ? 1 - all.walked / all.alone : 0;
-    const double shown = std::lerp(kSureAlone.at(sureness(over_alone)) * kMendedAlone.at(mended), 1.0, moving);
-    return shown * probability(sureness(over_alone)) * probability(sureness(over_base));
+    const double mended = all.by_contours > 0 ? 1 - all.by_walk / all.by_contours : 0;
+    const double proof = std::lerp(kSureAlone.at(sureness(over_alone)) * kMendedAlone.at(mended), 1.0, moving);
+    return proof * probability(sureness(over_alone)) * probability(sureness(over_base));
 }
 
 }  // namespace kontur

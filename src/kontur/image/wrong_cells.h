@@ -9,10 +9,10 @@ namespace kontur {
 
 /// How many cells in a drawn plane are on the wrong side by proposals that have not seen it.
 struct WrongCells {
-    double alone = 0;   ///< the surface through the contours of the other planes
-    double moved = 0;   ///< the same, moved to where the image shows the border
-    double walked = 0;  ///< the random walk
-    double drawn = 0;   ///< of all cells in the plane those inside what was drawn; 0: the plane tells nothing
+    double by_contours = 0;  ///< the surface through the contours of the other planes
+    double by_movement = 0;  ///< the same, moved to where the image shows the border
+    double by_walk = 0;      ///< the random walk
+    double drawn = 0;        ///< of all cells in the plane those inside what was drawn; 0: the plane tells nothing
 };
 
 /// `left_out`: the contours of the plane. Where one of them is open nothing is told.

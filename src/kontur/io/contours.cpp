@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/contours.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/input_file.h"
@@ -71,12 +74,37 @@ void check_tolerance(const ReadContoursOptions& options) {
     check_tolerances({.plane_tolerance_mm = options.plane_tolerance_mm});
 }
 
-bool is_markups(const fs::path& path) { return has_extension(path, ".mrk.json"); }
+bool is_markups_name(const fs::path& path) { return has_extension(path, ".mrk.json"); }
 
-}  // namespace
+bool is_markups(const fs::path& path, std::string_view head) {
+    return !is_dicom(path, head) && !is_polydata(path, head) && is_json(head) &&
+           (is_markups_name(path) || read_json_file(path).contains("markups"));
+}
 
-ReadContours read_contours(const fs::path& path, const ReadContoursOptions& options) {
-    check_tolerance(options);
+/// Of all files that are read together.
+struct Splines {
+    std::size_t count = 0;
+    double off_mm = 0;  ///< at most
+
+    void add(double curve_off_mm) {
+        ++count;
+        off_mm = std::max(off_mm, curve_off_mm);
+    }
+    std::string note() const {
+        return fmt::format(
+            "took {} as the spline that 3D Slicer draws, up to {:.2g} mm off straight lines; --curves polygon takes those",
+            counted(count, "curve"), off_mm);
+    }
+};
+
+void check_curves(const ReadContoursOptions& options, const std::vector<fs::path>& paths) {
+    if (!options.curves) return;
+    for (const fs::path& path : paths)
+        if (is_markups(path, head_of(path))) return;
+    throw Error(ErrorKind::invalid_input, "--curves is for 3D Slicer's markups (.mrk.json), and there are none");
+}
+
+ReadContours read_one(const fs::path& path, const ReadContoursOptions& options, Splines& splines) {
     const std::string head = head_of(path);
     if (is_dicom(path, head)) return read_roi(path, options);
     if (is_polydata(path, head)) return read_polylines(path, options);
@@ -85,23 +113,37 @@ ReadContours read_contours(const fs::path& path, const ReadContoursOptions& opti
                     path.string() +
                         " holds no contours: kontur's .json, 3D Slicer's .mrk.json, VTK's lines (.vtk, "
                         ".vtp) and DICOM RT structure sets are read");
-    const bool has_markups = is_markups(path) || read_json_file(path).contains("markups");
-    std::vector<std::string> notes;
-    const auto on_note = [&](std::string_view note) { notes.emplace_back(note); };
-    ContourSet contours =
-        has_markups ? read_markups(path, {options.plane_tolerance_mm, on_note}) : read_contour_json(path);
-    if (options.roi) check_name(path, contours, *options.roi);
-    return {std::move(contours), "", std::move(notes)};
+    ReadContours found;
+    if (is_markups(path, head))
+        found.contours = read_markups(path, {options.plane_tolerance_mm, options.curves.value_or(Curves::spline),
+                                             [&](std::string_view note) { found.notes.emplace_back(note); },
+                                             [&](double off_mm) { splines.add(off_mm); }});
+    else found.contours = read_contour_json(path);
+    if (options.roi) check_name(path, found.contours, *options.roi);
+    return found;
+}
+
+}  // namespace
+
+ReadContours read_contours(const fs::path& path, const ReadContoursOptions& options) {
+    check_tolerance(options);
+    check_curves(options, {path});
+    Splines splines;
+    ReadContours found = read_one(path, options, splines);
+    if (splines.count > 0) found.notes.push_back(splines.note());
+    return found;
 }
 
 ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
     check_tolerance(options);
+    check_curves(options, paths);
     ReadContours all;
+    Splines splines;
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     ReadContoursOptions of_others = options;
     if (options.roi && std::any_of(paths.begin(), paths.end(), is_structure_set)) of_others.roi.reset();
     for (const fs::path& path : paths) {
-        const ReadContours one = read_contours(path, is_structure_set(path) ? options : of_others);
+        const ReadContours one = read_one(path, is_structure_set(path) ? options : of_others, splines);
         if (all.contours.name.empty()) all.contours.name = one.contours.name;
         if (all.contours.attributes == StructureAttributes{}) all.contours.attributes = one.contours.attributes;
         if (all.frame_of_reference_uid.empty()) all.frame_of_reference_uid = one.frame_of_reference_uid;
@@ -112,11 +154,12 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
         append(all.contours.empty_planes, one.contours.empty_planes);
         for (const std::string& note : one.notes) all.notes.push_back(path.string() + ": " + note);
     }
+    if (splines.count > 0) all.notes.push_back(splines.note());
     return all;
 }
 
 void write_contours(const fs::path& path, const ContourSet& set, const Provenance& provenance) {
-    if (is_markups(path)) write_markups(path, set, provenance);
+    if (is_markups_name(path)) write_markups(path, set, provenance);
     else if (has_extension(path, ".json")) write_contour_json(path, set, provenance);
     else
         throw Error(ErrorKind::unsupported,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kontur/io/contours/curves.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/provenance.h"
 
@@ -16,6 +17,7 @@ struct ReadContoursOptions {
     /// hold one structure, whose name it then has to be, unless they are read together with a structure set.
     std::optional<std::string> roi;
     double plane_tolerance_mm = ContourCheckOptions{}.plane_tolerance_mm;  ///< for curves whose plane must be fitted
+    std::optional<Curves> curves{};  ///< of 3D Slicer's markups, which one of the files has to be; nullopt: splines
 };
 
 struct ReadContours {
@@ -26,8 +28,8 @@ struct ReadContours {
 
 /// Reads kontur's contour file, 3D Slicer's markups, VTK's lines (.vtk, .vtp: closed curves, of which none has a name) or a
 /// DICOM RT structure set; the content decides which. Throws
-/// Error(unsupported) for any other file, Error(invalid_input) for a `roi` that it does not hold, a tolerance below 0, and
-/// what the format's own reader throws.
+/// Error(unsupported) for any other file, Error(invalid_input) for a `roi` that it does not hold, a tolerance below 0,
+/// `curves` of other files than markups, and what the format's own reader throws.
 ReadContours read_contours(const std::filesystem::path& path, const ReadContoursOptions& options = {});
 
 /// The contours of several files as one object, in the order of the files, named after the first that has a name, with the

@@ -115,13 +115,28 @@ bool is_nrrd(const fs::path& path) {
     return format == Format::nrrd || format == Format::seg_nrrd;
 }
 
+/// The voxels of one value, with another one.
+Image numbered(const Image& image, std::int64_t value, std::int64_t number) {
+    const Mask mask = select_label(image, static_cast<double>(value));
+    std::vector<std::int32_t> values(mask.values.size());
+    std::transform(mask.values.begin(), mask.values.end(), values.begin(),
+                   [number](std::uint8_t inside) { return inside ? static_cast<std::int32_t>(number) : 0; });
+    return {image.grid, std::move(values)};
+}
+
 /// Overlapping segments of one file can be read one by one only: a label of 3D Slicer's layers says which layer.
 Image read_labels(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
                   const Work& work) {
     if (is_dicom_seg(path)) return read_segments(path, label, options, work);
     ReadImageOptions read = options;
-    if (label && !read.frame && is_nrrd(path)) read.frame = layer_of(read_nrrd_segments(path), *label);
-    return read_label_image(path, read, work);
+    if (read.frame || !is_nrrd(path)) return read_label_image(path, read, work);
+    const std::vector<NrrdSegment> segments = read_nrrd_segments(path);
+    check_segment_choice(segments, label, path);
+    const NrrdSegment* const segment = label ? segment_of_number(segments, *label) : nullptr;
+    if (segment) read.frame = segment->layer + 1;
+    Image image = read_label_image(path, read, work);
+    if (segment && segment->label_value != *label) image = numbered(image, segment->label_value, *label);
+    return image;
 }
 
 template <typename Value>
@@ -176,6 +191,15 @@ std::vector<NrrdSegment> one_segment_each(const std::map<std::int64_t, std::int6
         else segments.push_back({"label " + std::to_string(label), kPalette[segments.size() % kPalette.size()], label, 0});
     }
     return segments;
+}
+
+/// Those that the image has.
+std::vector<NamedLabel> named_labels(const Image& image, const std::vector<LabelName>& names) {
+    const std::map<std::int64_t, std::int64_t> counts = count_labels(image);
+    std::vector<NamedLabel> labels;
+    for (const LabelName& name : names)
+        if (counts.contains(name.label)) labels.push_back({name.label, name.name, name.color});
+    return labels;
 }
 
 /// `segments` is asked for only where the format has any.
@@ -307,6 +331,7 @@ void write_image(const fs::path& path, const Image& image, const WriteImageOptio
     for (const LabelName& name : options.names) check_color(name.color, name.name);
     const auto write_view = [&](ImageView view) {
         view.provenance = options.provenance;
+        if (!options.names.empty() && rule_for(path).format == Format::nifti) view.labels = named_labels(image, options.names);
         write(path, view, [&] { return one_segment_each(labels_of(image, path), options.names); });
     };
     const bool has_floats = std::holds_alternative<std::vector<float>>(image.samples);

@@ -30,7 +30,8 @@ Grid read_grid(const std::filesystem::path& path, const ReadImageOptions& option
 Image read_label_image(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// Reads a mask: the voxels with the value `label`, or without one all voxels other than 0. Throws Error(invalid_input),
-/// listing the labels in the file, when it holds several and none was chosen, or when the chosen one is not there.
+/// listing the labels in the file, when it holds several and none was chosen, or when the chosen one is not there. Of the
+/// segments of a .seg.nrrd that lie on several layers one has to be chosen; where two share a label value, by its place.
 Mask read_mask(const std::filesystem::path& path, std::optional<std::int64_t> label = {},
                const ReadImageOptions& options = {}, const Work& work = {});
 
@@ -44,7 +45,7 @@ struct WriteMaskOptions {
     Provenance provenance{};
 };
 
-/// What a .seg.nrrd says of a label.
+/// What a .seg.nrrd says of a label; name and colour go into the table of labels of a NIfTI file, too.
 struct LabelName {
     std::int64_t label = 1;
     std::string name;
@@ -53,7 +54,7 @@ struct LabelName {
 };
 
 struct WriteImageOptions {
-    std::vector<LabelName> names{};  ///< for .seg.nrrd
+    std::vector<LabelName> names{};  ///< for .seg.nrrd and NIfTI
     Provenance provenance{};         ///< as WriteMaskOptions'
 };
 

@@ -19,7 +19,7 @@
 #include "kontur/io/dicom/dcmtk.h"
 #include "kontur/io/dicom/dicom_series.h"
 #include "kontur/io/images/mgh.h"
-#include "kontur/io/images/nifti_header.h"
+#include "kontur/io/images/nifti_extensions.h"
 #include "kontur/io/images/nrrd_header.h"
 
 namespace kontur {
@@ -138,36 +138,12 @@ Provenance from_nrrd(const fs::path& path) {
     return found;
 }
 
-std::uint32_t number_at(std::span<const unsigned char, 4> bytes, bool big_endian) {
-    std::uint32_t number = 0;
-    for (std::size_t n = 0; n < 4; ++n) number = number << 8 | bytes[big_endian ? n : 3 - n];
-    return number;
-}
-
-/// Walks through the extensions between header and voxels.
 Provenance from_nifti(const fs::path& path) {
-    constexpr std::uint32_t kCommentCode = 6;
     constexpr std::string_view kBegin = "kontur\n";
-    InputFile file(path);
-    if (file.at_gzip()) file.inflate();
-    std::array<unsigned char, 544> header{};
-    file.read(header.data(), 4);
-    const NiftiKind kind = nifti_kind(std::span(header).first<4>());
-    if (kind.version == 0) return {};
-    const std::size_t header_bytes = nifti_header_bytes(kind.version) + 4;  // the last 4 tell of extensions
-    if (file.read_some(header.data() + 4, header_bytes - 4) < header_bytes - 4 || header[header_bytes - 4] == 0) return {};
-    const double left = parse_nifti_header(header, kind).vox_offset - static_cast<double>(header_bytes);
-    if (!(left > 0)) return {};
-    auto bytes_left = static_cast<std::size_t>(std::min(left, static_cast<double>(kMostHeaderBytes)));
-    std::array<unsigned char, 8> start{};
-    while (bytes_left >= start.size() && file.read_some(start.data(), start.size()) == start.size()) {
-        const std::size_t size = number_at(std::span(start).first<4>(), kind.big_endian);
-        if (size < start.size() || size > bytes_left) return {};
-        std::string text(size - start.size(), '\0');
-        if (file.read_some(text.data(), text.size()) < text.size()) return {};
-        if (number_at(std::span(start).last<4>(), kind.big_endian) == kCommentCode && text.starts_with(kBegin))
-            return from_lines(std::string_view(text).substr(0, text.find('\0')), "");
-        bytes_left -= size;
+    for (const NiftiExtension& extension : read_nifti_extensions(path)) {
+        const std::string_view text = extension.content;
+        if (extension.code == kNiftiCommentCode && text.starts_with(kBegin))
+            return from_lines(text.substr(0, text.find('\0')), "");
     }
     return {};
 }

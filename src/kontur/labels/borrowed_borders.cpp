@@ -19,7 +19,6 @@ constexpr double kClose = 0.75;
 /// How far places are from where f is 0, by Newton's method, without the fall far away, by which they would seem to be near.
 std::vector<double> distances_mm(const ImplicitFunction& function, const std::vector<Vec3>& places_mm, const Work& work) {
     constexpr int kSteps = 4;
-    constexpr double kLeastSlope = 1e-3;  // where f has a ridge
     std::vector<Vec3> at = places_mm, gradients(at.size());
     std::vector<double> values(at.size());
     for (int step = 0; step < kSteps; ++step) {
@@ -29,7 +28,7 @@ std::vector<double> distances_mm(const ImplicitFunction& function, const std::ve
         function.add_fall(places, falls);
         for (std::size_t n = 0; n < at.size(); ++n) {
             const Vec3 slope = gradients[n] - function.fall_gradient_at(places[n]) / function.frame().scale;
-            at[n] -= (values[n] - falls[n]) / std::max(dot(slope, slope), kLeastSlope * kLeastSlope) * slope;
+            at[n] -= (values[n] - falls[n]) / std::max(dot(slope, slope), kRidgeSlope * kRidgeSlope) * slope;
         }
     }
     std::vector<double> found(at.size());

@@ -2,8 +2,6 @@
 #include "kontur/labels/boxed_mask.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace kontur {
 namespace {
@@ -33,49 +31,6 @@ BoxedMask part_of(const BoxedMask& object, const IndexBox& box, const Grid& grid
 }
 
 }  // namespace
-
-std::optional<IndexBox> common_box(const IndexBox& a, const IndexBox& b) {
-    IndexBox common;
-    for (int axis = 0; axis < 3; ++axis) {
-        common.low[axis] = std::max(a.low[axis], b.low[axis]);
-        common.high[axis] = std::min(a.high[axis], b.high[axis]);
-        if (common.low[axis] > common.high[axis]) return std::nullopt;
-    }
-    return common;
-}
-
-IndexBox box_around(const IndexBox& a, const IndexBox& b) {
-    IndexBox around;
-    for (int axis = 0; axis < 3; ++axis) {
-        around.low[axis] = std::min(a.low[axis], b.low[axis]);
-        around.high[axis] = std::max(a.high[axis], b.high[axis]);
-    }
-    return around;
-}
-
-std::optional<IndexBox> index_box(const Grid& grid, const Box3& box_mm) {
-    const Affine3 to_index = grid.index_to_mm.inverse();
-    Box3 indices;
-    for (int corner = 0; corner < 8; ++corner)
-        indices.extend(to_index.apply({corner & 1 ? box_mm.max.x : box_mm.min.x, corner & 2 ? box_mm.max.y : box_mm.min.y,
-                                       corner & 4 ? box_mm.max.z : box_mm.min.z}));
-    IndexBox box;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto last = static_cast<double>(grid.size[axis] - 1);
-        const double low = std::floor(indices.min[axis]), high = std::ceil(indices.max[axis]);
-        if (!(low <= last && high >= 0)) return std::nullopt;
-        box.low[axis] = static_cast<std::int64_t>(std::max(low, 0.0));
-        box.high[axis] = static_cast<std::int64_t>(std::min(high, last));
-    }
-    return box;
-}
-
-IndexBox box_of_part(const Grid& grid, const Grid& part) {
-    const Vec3 first = grid.index_to_mm.inverse().apply(part.center_mm(0, 0, 0));
-    IndexBox box{{std::llround(first.x), std::llround(first.y), std::llround(first.z)}, {}};
-    for (int axis = 0; axis < 3; ++axis) box.high[axis] = box.low[axis] + part.size[axis] - 1;
-    return box;
-}
 
 BoxedMask trimmed(const BoxedMask& object, const Grid& grid) {
     std::optional<IndexBox> found;

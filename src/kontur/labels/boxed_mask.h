@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "kontur/labels/label_boxes.h"
@@ -24,18 +23,6 @@ private:
         return mask.grid.offset(at.i - box.low.i, at.j - box.low.j, at.k - box.low.k);
     }
 };
-
-/// The voxels that two boxes share.
-std::optional<IndexBox> common_box(const IndexBox& a, const IndexBox& b);
-
-/// Around both boxes.
-IndexBox box_around(const IndexBox& a, const IndexBox& b);
-
-/// The voxels of a grid whose centres lie in a box in mm, and one more on each side; nullopt if the grid has none there.
-std::optional<IndexBox> index_box(const Grid& grid, const Box3& box_mm);
-
-/// The box of `grid` whose grid (grid_of) `part` is.
-IndexBox box_of_part(const Grid& grid, const Grid& part);
 
 /// The same voxels on the smallest box around them; a single voxel, which is not set, if there are none.
 BoxedMask trimmed(const BoxedMask& object, const Grid& grid);

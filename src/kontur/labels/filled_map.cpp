@@ -21,18 +21,13 @@ void FilledMap::set_label(std::size_t n, std::int64_t label) {
                labels_.samples);
 }
 
-Index3 FilledMap::index(std::size_t n) const {
-    const auto m = static_cast<std::int64_t>(n);
-    const Index3& size = labels_.grid.size;
-    return {m % size.i, m / size.i % size.j, m / (size.i * size.j)};
-}
+Index3 FilledMap::index(std::size_t n) const { return index_at(n, labels_.grid.size); }
 
 std::vector<double> depths_mm(const ImplicitFunction& function, const std::vector<Vec3>& places_mm, const Work& work) {
-    constexpr double kLeastSlope = 1e-3;  // where f has a ridge
     std::vector<double> values(places_mm.size());
     std::vector<Vec3> gradients(places_mm.size());
     function.values_and_gradients(places_mm, values, gradients, work);
-    for (std::size_t n = 0; n < values.size(); ++n) values[n] /= std::max(norm(gradients[n]), kLeastSlope);
+    for (std::size_t n = 0; n < values.size(); ++n) values[n] /= std::max(norm(gradients[n]), kRidgeSlope);
     return values;
 }
 

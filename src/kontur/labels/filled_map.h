@@ -10,6 +10,9 @@
 
 namespace kontur {
 
+/// Where f has a ridge it is taken to be this steep.
+inline constexpr double kRidgeSlope = 1e-3;
+
 /// A label map while it is filled, which remembers what was painted. Takes a bit more for each voxel than the map alone.
 class FilledMap {
 public:

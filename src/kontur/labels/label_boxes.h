@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "kontur/labels/index_box.h"
+#include "kontur/shape/index_box.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {

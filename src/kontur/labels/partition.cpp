@@ -11,7 +11,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/labels/filled_map.h"
-#include "kontur/labels/gaps.h"
+#include "kontur/labels/structure_gaps.h"
 #include "kontur/labels/union_contours.h"
 
 namespace kontur {
@@ -31,8 +31,7 @@ double reach_mm(const ContourSet& contours, const Grid& grid) {
         if (std::abs(dot(contour.plane.normal, first.normal)) > 0.99)
             heights.push_back(first.distance_to(contour.points.front()));
     std::sort(heights.begin(), heights.end());
-    const Vec3 spacing = grid.spacing_mm();
-    double apart = std::max({spacing.x, spacing.y, spacing.z});
+    double apart = largest(grid.spacing_mm());
     for (std::size_t n = 1; n < heights.size(); ++n) apart = std::max(apart, heights[n] - heights[n - 1]);
     return apart / 2;
 }
@@ -150,8 +149,7 @@ private:
             for (const Contour& contour : drawn_[n]->contours)
                 if (!contour.closed) return;
         }
-        const Vec3 spacing = grid_.spacing_mm();
-        const double least = std::min({spacing.x, spacing.y, spacing.z});
+        const double least = smallest(grid_.spacing_mm());
         const ContourSet outline =
             union_contours(sets, {.step_mm = least / 2, .spacing_mm = point_spacing_mm(sets), .close_mm = least});
         if (outline.contours.empty()) return;

@@ -19,12 +19,12 @@ constexpr double kLeastLevel = 0.05;
 constexpr double kThinLevel = 0.55;
 
 /// A slice as a lattice of voxel centres. Its axes are the grid's steps, so that (u, v) are voxel indices.
-PlaneLattice lattice_of(const Grid& grid, const PaintedSlice& slice) {
+IsolineLattice lattice_of(const Grid& grid, const PaintedSlice& slice) {
     const auto [a, b] = slice_axes(slice.axis);
     const Vec3 u = grid.index_to_mm.column(a), v = grid.index_to_mm.column(b);
     Index3 origin;
     origin[slice.axis] = slice.index;
-    PlaneLattice lattice;
+    IsolineLattice lattice;
     lattice.plane = {grid.center_mm(origin.i, origin.j, origin.k), normalized(cross(u, v)), u, v};
     lattice.columns = grid.size[a];
     lattice.rows = grid.size[b];
@@ -69,7 +69,7 @@ std::vector<double> smoothed(const std::vector<double>& values, std::int64_t cou
 }
 
 /// The parts, painted or not, of which no voxel has all four neighbours in it: at most two voxels wide.
-std::vector<std::uint8_t> thin_parts(const std::vector<std::uint8_t>& section, const PlaneLattice& lattice) {
+std::vector<std::uint8_t> thin_parts(const std::vector<std::uint8_t>& section, const IsolineLattice& lattice) {
     std::vector<std::uint8_t> thin(section.size(), 1);
     std::vector<std::size_t> reached;
     const auto for_neighbours = [&](std::size_t n, std::int64_t corners, const auto& visit) {
@@ -94,7 +94,7 @@ std::vector<std::uint8_t> thin_parts(const std::vector<std::uint8_t>& section, c
 
 /// Above 0 where the section is. Of a single voxel smoothing leaves hardly a point, of a line a thread, at which a fit knows
 /// no inside any more: thin parts are not smoothed.
-std::vector<double> levels_of(const PaintedSlice& slice, const PlaneLattice& lattice, double sigma) {
+std::vector<double> levels_of(const PaintedSlice& slice, const IsolineLattice& lattice, double sigma) {
     const std::vector<std::uint8_t> thin = thin_parts(slice.section, lattice);
     std::vector<double> levels(slice.section.size());
     for (std::size_t n = 0; n < levels.size(); ++n) levels[n] = (slice.section[n] != 0) != (thin[n] != 0) ? 1 : 0;
@@ -114,7 +114,7 @@ std::vector<double> levels_of(const PaintedSlice& slice, const PlaneLattice& lat
 }  // namespace
 
 std::vector<Contour> section_contours(const Grid& grid, const PaintedSlice& slice, const SectionContourOptions& options) {
-    const PlaneLattice lattice = lattice_of(grid, slice);
+    const IsolineLattice lattice = lattice_of(grid, slice);
     const Plane plane = orthonormal(lattice.plane);
     ContourSet set;
     for (const Isoline& line : isolines(lattice, levels_of(slice, lattice, options.smoothing_voxels))) {

@@ -10,14 +10,26 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Along one row: the least of squared distances to other voxels plus what these have. Reads and writes `values` with a
-/// stride.
-void transform_row(double* values, std::int64_t count, std::int64_t stride, double step_mm, std::vector<double>& row,
-                   std::vector<std::int64_t>& parabolas, std::vector<double>& borders) {
+/// Values of a row of voxels, `stride` apart in memory and `step_mm` in space.
+struct Row {
+    double* values;
+    std::int64_t count, stride;
+    double step_mm;
+};
+
+struct Scratch {
+    std::vector<double> row, borders;
+    std::vector<std::int64_t> parabolas;
+};
+
+/// Along one row: the least of squared distances to other voxels plus what these have.
+void transform_row(const Row& line, Scratch& scratch) {
+    const auto& [values, count, stride, step_mm] = line;
+    auto& [row, borders, parabolas] = scratch;
     row.resize(static_cast<std::size_t>(count));
     parabolas.clear(), borders.clear();
-    const auto at = [&](std::int64_t n) { return row[static_cast<std::size_t>(n)]; };
-    const auto place = [&](std::int64_t n) { return step_mm * static_cast<double>(n); };
+    const auto at = [&values_of_row = row](std::int64_t n) { return values_of_row[static_cast<std::size_t>(n)]; };
+    const auto place = [step = step_mm](std::int64_t n) { return step * static_cast<double>(n); };
     for (std::int64_t n = 0; n < count; ++n) row[static_cast<std::size_t>(n)] = values[n * stride];
     for (std::int64_t n = 0; n < count; ++n) {
         if (at(n) == kFar) continue;
@@ -48,18 +60,15 @@ std::vector<double> squared_distances(const std::vector<std::uint8_t>& section, 
     std::transform(section.begin(), section.end(), squared.begin(),
                    [&](std::uint8_t value) { return value == set ? 0.0 : kFar; });
     const std::int64_t height = static_cast<std::int64_t>(section.size()) / width;
-    std::vector<double> row, borders;
-    std::vector<std::int64_t> parabolas;
-    for (std::int64_t b = 0; b < height; ++b)
-        transform_row(squared.data() + b * width, width, 1, step_u_mm, row, parabolas, borders);
-    for (std::int64_t a = 0; a < width; ++a)
-        transform_row(squared.data() + a, height, width, step_v_mm, row, parabolas, borders);
+    Scratch scratch;
+    for (std::int64_t b = 0; b < height; ++b) transform_row({squared.data() + b * width, width, 1, step_u_mm}, scratch);
+    for (std::int64_t a = 0; a < width; ++a) transform_row({squared.data() + a, height, width, step_v_mm}, scratch);
     return squared;
 }
 
 }  // namespace
 
-std::vector<double> section_distances(const Section& section) {
+std::vector<double> section_distances(const SectionVoxels& section) {
     const double half = std::min(section.step_u_mm, section.step_v_mm) / 2;
     const std::vector<double> outside =
         squared_distances(section.set, 1, section.width, section.step_u_mm, section.step_v_mm);

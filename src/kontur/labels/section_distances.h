@@ -10,7 +10,7 @@
 namespace kontur {
 
 /// A part of a slice, or all of it: 1 where it was painted; the first axis, u, is fastest.
-struct Section {
+struct SectionVoxels {
     std::vector<std::uint8_t> set;
     std::int64_t width = 0;
     double step_u_mm = 1, step_v_mm = 1;
@@ -19,7 +19,7 @@ struct Section {
 /// Signed distance in mm of each voxel centre of a section from its outline, which runs half a voxel from the centres
 /// beside it; positive inside, -infinity where nothing was painted. Linear in the voxels (Felzenszwalb and Huttenlocher,
 /// Distance transforms of sampled functions, 2012).
-std::vector<double> section_distances(const Section& section);
+std::vector<double> section_distances(const SectionVoxels& section);
 std::vector<double> section_distances(const Grid& grid, const PaintedSlice& slice);
 
 /// Distances in a rectangle of a slice, in single precision.

@@ -66,12 +66,12 @@ private:
 
 /// Where a difference of depths is 0 between two voxels, from 0 to 1; the middle where it has one sign, as where a voxel
 /// changed hands.
-struct Crossing {
+struct BorderCrossing {
     double along = 0.5;
     bool is_known = false;
 };
 
-Crossing crossing(double here, double next) {
+BorderCrossing crossing(double here, double next) {
     constexpr double kLeast = 0.02;  // of the way, so that no triangle collapses
     if ((here > 0) == (next > 0)) return {};
     return {std::clamp(here / (here - next), kLeast, 1 - kLeast), true};
@@ -130,7 +130,7 @@ private:
                         ++b[axis];
                         if (map_.at(a) == map_.at(b)) continue;
                         Vec3 at{static_cast<double>(a.i), static_cast<double>(a.j), static_cast<double>(a.k)};
-                        const Crossing crossing = crossing_between(a, b);
+                        const BorderCrossing crossing = crossing_between(a, b);
                         at[axis] += crossing.along;
                         sum += at, ++count;
                         const std::size_t object = crossing.is_known ? only_object(map_.at(a), map_.at(b)) : kNone;
@@ -153,8 +153,7 @@ private:
 
     /// The mean of crossings lies within a curved surface. One step of Newton's takes it there, where one object alone ends.
     void move_to_surfaces() {
-        const Vec3 spacing = grid_.spacing_mm();
-        const double farthest_mm = std::min({spacing.x, spacing.y, spacing.z}) / 2;
+        const double farthest_mm = smallest(grid_.spacing_mm()) / 2;
         for (std::size_t object = 0; object < functions_.size(); ++object) {
             std::vector<Vec3> places, gradients;
             for (const std::size_t n : of_object_[object]) places.push_back(surface_.mesh.points[n]);
@@ -170,7 +169,7 @@ private:
     }
 
     /// The objects that end between two voxels: the deepest of those on either side.
-    Crossing crossing_between(const Index3& a, const Index3& b) const {
+    BorderCrossing crossing_between(const Index3& a, const Index3& b) const {
         const Region here = map_.at(a), next = map_.at(b);
         const auto deepest = [&](Region in, Region out, const Index3& at) {
             double depth = -std::numeric_limits<double>::infinity();

@@ -67,8 +67,8 @@ void measure(Part& part, const Grid& grid, const PaintedSlice& slice) {
     field.left = low_u - margin, field.bottom = low_v - margin;
     field.width = high_u - low_u + 1 + 2 * margin, field.height = high_v - low_v + 1 + 2 * margin;
     field.step_u_mm = spacing[axis_u], field.step_v_mm = spacing[axis_v];
-    Section section{Sections(static_cast<std::size_t>(field.width * field.height)), field.width, field.step_u_mm,
-                    field.step_v_mm};
+    SectionVoxels section{Sections(static_cast<std::size_t>(field.width * field.height)), field.width, field.step_u_mm,
+                          field.step_v_mm};
     for (const std::size_t n : part.voxels) {
         const std::int64_t u = static_cast<std::int64_t>(n) % width, v = static_cast<std::int64_t>(n) / width;
         section.set[static_cast<std::size_t>(u - field.left + field.width * (v - field.bottom))] = 1;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
 #include <numeric>
 
 namespace kontur {
@@ -76,7 +75,7 @@ void join_rows(const RunList& list, std::int64_t row_a, std::int64_t row_b, Disj
 
 }  // namespace
 
-std::vector<std::int64_t> component_sizes(const Mask& mask) {
+Components find_components(const Mask& mask) {
     check_mask(mask);
     const Index3 size = mask.grid.size;
     const RunList list = find_runs(mask);
@@ -90,9 +89,26 @@ std::vector<std::int64_t> component_sizes(const Mask& mask) {
 
     std::vector<std::int64_t> voxels(list.runs.size());
     for (std::size_t r = 0; r < list.runs.size(); ++r) voxels[sets.find(r)] += list.runs[r].end - list.runs[r].begin;
-    std::erase(voxels, 0);
-    std::sort(voxels.begin(), voxels.end(), std::greater<>{});
-    return voxels;
+    std::vector<std::size_t> firsts;  // the run that names each component
+    for (std::size_t r = 0; r < list.runs.size(); ++r)
+        if (voxels[r] > 0) firsts.push_back(r);
+    std::stable_sort(firsts.begin(), firsts.end(), [&](std::size_t a, std::size_t b) { return voxels[a] > voxels[b]; });
+
+    Components components;
+    std::vector<std::size_t> number(list.runs.size());
+    for (const std::size_t first : firsts) {
+        number[first] = components.sizes.size();
+        components.sizes.push_back(voxels[first]);
+    }
+    for (std::int64_t row = 0; row < size.j * size.k; ++row)
+        for (std::size_t r = list.row_start[row]; r < list.row_start[row + 1]; ++r) {
+            const Run& run = list.runs[r];
+            components.runs.push_back({static_cast<std::size_t>(row * size.i + run.begin),
+                                       static_cast<std::size_t>(row * size.i + run.end), number[sets.find(r)]});
+        }
+    return components;
 }
+
+std::vector<std::int64_t> component_sizes(const Mask& mask) { return find_components(mask).sizes; }
 
 }  // namespace kontur

@@ -165,12 +165,12 @@ std::string_view name(Severity severity) noexcept {
 }
 
 std::string_view name(FindingKind kind) noexcept {
-    constexpr std::array<std::string_view, 26> kNames{
+    constexpr std::array<std::string_view, 27> kNames{
         "no_contours",      "too_few_points", "not_finite",      "off_plane",  "no_area",       "unusable",
         "repeated_points",  "spike",          "self_crossing",   "self_touch", "long_edge",     "maybe_open",
         "maybe_closed",     "tiny",           "duplicate",       "overlap",    "unmarked_hole", "thin_wall",
-        "stray_hole",       "contradiction",  "misplaced_point", "isolated",   "gap",           "one_plane",
-        "implausible_size", "far_away"};
+        "stray_hole",       "contradiction",  "misplaced_point", "isolated",   "gap",           "far_rings",
+        "one_plane",        "implausible_size", "far_away"};
     static_assert(kNames.size() == static_cast<std::size_t>(FindingKind::far_away) + 1);
     return kNames[static_cast<std::size_t>(kind)];
 }

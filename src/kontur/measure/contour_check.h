@@ -42,6 +42,7 @@ enum class FindingKind {
     misplaced_point,  ///< an interior or exterior point on the wrong side of the contours drawn in its plane
     isolated,         ///< no other contour tells how the object goes on from this one
     gap,              ///< a missing slice
+    far_rings,        ///< sections of a tube that are far apart for their width
     one_plane,        ///< all contours lie in one plane
     implausible_size,
     far_away,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kontur/base/checks.h"
+#include "kontur/measure/bent_ways.h"
 #include "kontur/measure/contour_check.h"
 #include "kontur/measure/findings.h"
 #include "kontur/shape/apply_fill_rule.h"
@@ -59,6 +60,7 @@ public:
         find_misplaced_on_surface();
         find_isolated();
         find_gaps();
+        find_far_rings();
         if (sections_.size() == 1)
             add(FindingKind::one_plane, Severity::note,
                 "all contours lie in one plane; how thick the object is will be a guess from their width");
@@ -281,6 +283,35 @@ private:
             if (contour(c).closed && by_contour[c].matched == 0 && !has_neighbour(c))
                 add(FindingKind::isolated, Severity::note, c,
                     "stands alone: no other contour tells how the object goes on from it");
+    }
+
+    /// Sections of a tube between which it may come apart: the two that are farthest apart for their width.
+    void find_far_rings() {
+        constexpr double kMostRadii = 5;
+        std::vector<const Section*> sections;
+        for (const Section& section : sections_) sections.push_back(&section);
+        const std::pair<Ring, Ring>* worst = nullptr;
+        const std::vector<std::pair<Ring, Ring>> pairs = ring_pairs(sections);
+        double most = kMostRadii;
+        int count = 0;
+        for (const std::pair<Ring, Ring>& pair : pairs) {
+            const auto& [a, b] = pair;
+            const double radii = distance(a.middle, b.middle) / std::max(a.radius_mm, b.radius_mm);
+            count += radii > kMostRadii;
+            if (radii > most) most = radii, worst = &pair;
+        }
+        if (!worst) return;
+        const auto& [a, b] = *worst;
+        const double apart = distance(a.middle, b.middle);
+        const std::string where = count == 1 ? "" : fmt::format(", the farthest of {} such pairs", count);
+        Finding& finding = add(FindingKind::far_rings, Severity::note,
+                               fmt::format("{} and {} lie {:.3g} mm apart, {:.1f} times their radius{}; a tube may come "
+                                           "apart between them, and a contour there would carry it on",
+                                           title(a.contour), title(b.contour), apart, most, where));
+        finding.contour = index_[a.contour];
+        finding.other = index_[b.contour];
+        finding.position = 0.5 * (a.middle + b.middle);
+        finding.value_mm = apart;
     }
 
     /// Missing slices in stacks of parallel planes that are evenly spaced otherwise.

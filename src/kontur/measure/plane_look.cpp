@@ -14,21 +14,21 @@ namespace {
 constexpr int kStride = 3;  // pixels from one that is looked at first to the next
 
 /// A pixel whose value is to be found.
-struct Asked {
+struct OpenPixel {
     Sheet* sheet;
     std::size_t pixel;
     Vec3 place;
 };
 
-void answer(std::vector<Asked>& asked, const PlaceValues& values) {
-    if (asked.empty()) return;
+void answer(std::vector<OpenPixel>& open, const PlaceValues& values) {
+    if (open.empty()) return;
     std::vector<Vec3> places;
-    places.reserve(asked.size());
-    for (const Asked& one : asked) places.push_back(one.place);
+    places.reserve(open.size());
+    for (const OpenPixel& one : open) places.push_back(one.place);
     std::vector<double> found(places.size());
     values(places, found);
-    for (std::size_t n = 0; n < asked.size(); ++n) asked[n].sheet->values[asked[n].pixel] = found[n];
-    asked.clear();
+    for (std::size_t n = 0; n < open.size(); ++n) open[n].sheet->values[open[n].pixel] = found[n];
+    open.clear();
 }
 
 /// Of a block of kStride x kStride pixels between four that have been looked at.
@@ -42,7 +42,7 @@ public:
     }
 
     /// Gives each block whose corners and pixels agree its corners' value, and asks for all pixels of the others.
-    void ask_or_infer(std::vector<Asked>& asked) {
+    void ask_or_infer(std::vector<OpenPixel>& open) {
         const PixelLattice& lattice = sheet_.lattice;
         for (int row = 0; row + 1 < lattice.rows; row += kStride)
             for (int column = 0; column + 1 < lattice.columns; column += kStride) {
@@ -51,7 +51,7 @@ public:
                 const bool is_even = agrees(column, row, right, top);
                 const double value = sheet_.values[lattice.index(column, row)];
                 for (int j = row; j <= top; ++j)
-                    for (int i = column; i <= right; ++i) settle(lattice.index(i, j), is_even, value, asked);
+                    for (int i = column; i <= right; ++i) settle(lattice.index(i, j), is_even, value, open);
             }
     }
 
@@ -68,7 +68,7 @@ private:
         return true;
     }
 
-    void settle(std::size_t pixel, bool is_even, double value, std::vector<Asked>& asked) {
+    void settle(std::size_t pixel, bool is_even, double value, std::vector<OpenPixel>& open) {
         double& here = sheet_.values[pixel];
         if (!std::isnan(here) && !std::isinf(here)) return;
         if (is_even) {
@@ -78,7 +78,7 @@ private:
         // A pixel that another block has inferred stays; one that is asked for is marked so that it is asked for once.
         if (std::isinf(here)) return;
         here = std::numeric_limits<double>::infinity();
-        asked.push_back({&sheet_, pixel, look_.plane().from_uv(sheet_.lattice.at(pixel))});
+        open.push_back({&sheet_, pixel, look_.plane().from_uv(sheet_.lattice.at(pixel))});
     }
 
     PlaneLook& look_;
@@ -86,13 +86,13 @@ private:
 };
 
 /// Deep wrong pixels, unless there are so many that no error of interpolation made them.
-void ask_again(PlaneLook& look, Sheet& sheet, double tolerance_mm, std::vector<Asked>& asked) {
+void ask_again(PlaneLook& look, Sheet& sheet, double tolerance_mm, std::vector<OpenPixel>& open) {
     constexpr std::size_t kMost = 1500;
-    const std::size_t before = asked.size();
+    const std::size_t before = open.size();
     for (std::size_t pixel = 0; pixel < sheet.values.size(); ++pixel)
         if (sheet.depths[pixel] > tolerance_mm) {
-            if (asked.size() - before == kMost) return asked.resize(before);
-            asked.push_back({&sheet, pixel, look.plane().from_uv(sheet.lattice.at(pixel))});
+            if (open.size() - before == kMost) return open.resize(before);
+            open.push_back({&sheet, pixel, look.plane().from_uv(sheet.lattice.at(pixel))});
         }
 }
 
@@ -179,7 +179,7 @@ void PlaneLook::measure_depths() {
 void look(std::span<PlaneLook> looks, const PlaceValues& values, const PlaceValues& exact, const DrawingSize& size,
           const Work& work) {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    std::vector<Asked> asked;
+    std::vector<OpenPixel> open;
     for (PlaneLook& look : looks) {
         Sheet &near = look.near(), &far = look.far();
         near.values.assign(near.lattice.count(), kUnknown);
@@ -188,14 +188,14 @@ void look(std::span<PlaneLook> looks, const PlaceValues& values, const PlaceValu
             for (int column = 0; column < near.lattice.columns; ++column)
                 if (Blocks::is_corner(column, row, near.lattice)) {
                     const std::size_t pixel = near.lattice.index(column, row);
-                    asked.push_back({&near, pixel, look.plane().from_uv(near.lattice.at(pixel))});
+                    open.push_back({&near, pixel, look.plane().from_uv(near.lattice.at(pixel))});
                 }
         for (std::size_t pixel = 0; pixel < far.lattice.count(); ++pixel)
-            if (far.counts(pixel)) asked.push_back({&far, pixel, look.plane().from_uv(far.lattice.at(pixel))});
+            if (far.counts(pixel)) open.push_back({&far, pixel, look.plane().from_uv(far.lattice.at(pixel))});
     }
-    answer(asked, values);
-    for (PlaneLook& look : looks) Blocks(look).ask_or_infer(asked);
-    answer(asked, values);
+    answer(open, values);
+    for (PlaneLook& look : looks) Blocks(look).ask_or_infer(open);
+    answer(open, values);
     const auto measure = [&] {
         parallel_for(static_cast<std::int64_t>(looks.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t n = begin; n < end; ++n) looks[static_cast<std::size_t>(n)].measure_depths();
@@ -204,9 +204,9 @@ void look(std::span<PlaneLook> looks, const PlaceValues& values, const PlaceValu
     measure();
     if (!exact) return;
     for (PlaneLook& look : looks)
-        for (Sheet* sheet : {&look.near(), &look.far()}) ask_again(look, *sheet, size.tolerance_mm, asked);
-    if (asked.empty()) return;
-    answer(asked, exact);
+        for (Sheet* sheet : {&look.near(), &look.far()}) ask_again(look, *sheet, size.tolerance_mm, open);
+    if (open.empty()) return;
+    answer(open, exact);
     measure();
 }
 

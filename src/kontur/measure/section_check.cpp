@@ -21,16 +21,16 @@ constexpr double kDeep = 0.0045;
 /// The planes in which something closed is drawn, then those given as empty.
 std::vector<PlaneLook> looks_of(const std::vector<Section>& sections, const ContourSet& set, const DrawingSize& size,
                                 const Work& work) {
-    std::vector<std::optional<PlaneLook>> made(sections.size());
+    std::vector<std::optional<PlaneLook>> looks_of_sections(sections.size());
     parallel_for(static_cast<std::int64_t>(sections.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t n = begin; n < end; ++n) {
             const auto s = static_cast<std::size_t>(n);
-            made[s].emplace(sections[s], set, size);
+            looks_of_sections[s].emplace(sections[s], set, size);
         }
     });
     std::vector<PlaneLook> looks;
     double area = 0;
-    for (std::optional<PlaneLook>& look : made)
+    for (std::optional<PlaneLook>& look : looks_of_sections)
         if (look->area_mm2() > 0) {
             area += look->area_mm2();
             looks.push_back(std::move(*look));

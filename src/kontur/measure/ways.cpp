@@ -7,11 +7,12 @@
 #include <limits>
 #include <map>
 
+#include "kontur/measure/bent_ways.h"
+
 namespace kontur {
 namespace {
 
 constexpr std::size_t kPlaces = 100;              // of each section, from which ways lead on
-constexpr std::array kQuarters{0.25, 0.5, 0.75};  // of a way, where it is looked at
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// A way from a place of a section along the plane's normal to the next plane; infinitely long where there is none.
@@ -21,6 +22,7 @@ struct Way {
     std::size_t to = 0;
 
     Vec3 at(double part) const { return from + part * length_mm * direction; }
+    std::array<Vec3, kQuarters.size()> quarters() const { return {at(kQuarters[0]), at(kQuarters[1]), at(kQuarters[2])}; }
 };
 
 std::vector<Way> ways_from(std::span<const PlaneLook> looks, std::size_t own, double sign) {
@@ -81,15 +83,30 @@ public:
             if (shared.size() < kFewest ||
                 static_cast<double>(shared.size()) <= kLeastShare * static_cast<double>(ways.size()))
                 continue;
-            Pair& pair = pairs_.emplace_back(Pair{own, to, shared.size(), 0, {}});
+            Pair& pair = add_pair(own, to, *looks_[own].contour(), *looks_[to].contour(), shared.size());
             std::vector<double> lengths;
             for (const Way* way : shared) {
                 lengths.push_back(way->length_mm);
-                if (is_known_empty(*way, own, to)) continue;
+                if (is_known_empty(way->quarters(), way->length_mm, way->direction, own, to)) continue;
                 std::array<std::size_t, kQuarters.size()>& asked = pair.asked.emplace_back();
                 for (std::size_t q = 0; q < kQuarters.size(); ++q) asked[q] = questions.ask(way->at(kQuarters[q]));
             }
             pair.gap_mm = median(std::move(lengths));
+        }
+    }
+
+    /// Those along a bend, where no straight ones lead from the one plane to the other.
+    void ask(const BentWays& bent, Questions& questions) {
+        if (std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+                return std::minmax({pair.own, pair.to}) == std::minmax({bent.own, bent.to});
+            }))
+            return;
+        Pair& pair = add_pair(bent.own, bent.to, bent.contour, bent.other, bent.places.size());
+        pair.gap_mm = bent.length_mm;
+        for (const auto& places : bent.places) {
+            if (is_known_empty(places, bent.length_mm, bent.direction, bent.own, bent.to)) continue;
+            std::array<std::size_t, kQuarters.size()>& asked = pair.asked.emplace_back();
+            for (std::size_t q = 0; q < kQuarters.size(); ++q) asked[q] = questions.ask(places[q]);
         }
     }
 
@@ -107,30 +124,34 @@ public:
             if (!place) continue;
             const double share = static_cast<double>(missing) / static_cast<double>(pair.ways);
             check.between.push_back(
-                {*looks_[pair.own].contour(), *looks_[pair.to].contour(), share, pair.gap_mm, *place, share > kMostMissing});
+                {pair.contour, pair.other, share, pair.gap_mm, *place, share > kMostMissing});
         }
     }
 
 private:
     struct Pair {
-        std::size_t own, to, ways;
+        std::size_t own, to, contour, other, ways;
         double gap_mm;
         std::vector<std::array<std::size_t, kQuarters.size()>> asked;
     };
 
+    Pair& add_pair(std::size_t own, std::size_t to, std::size_t contour, std::size_t other, std::size_t ways) {
+        return pairs_.emplace_back(Pair{own, to, contour, other, ways, 0, {}});
+    }
+
     /// A third plane, or an exterior point, within half of the way shows nothing there.
-    bool is_known_empty(const Way& way, std::size_t own, std::size_t to) const {
+    bool is_known_empty(std::span<const Vec3> places, double length_mm, const Vec3& direction, std::size_t own,
+                        std::size_t to) const {
         constexpr double kNear = 0.5, kLeastSine = 0.312;  // a plane along the way, or steep across it
-        for (const double part : kQuarters) {
-            const Vec3 place = way.at(part);
+        for (const Vec3& place : places) {
             for (const Vec3& click : set_.exterior)
-                if (distance(click, place) < kNear * way.length_mm) return true;
+                if (distance(click, place) < kNear * length_mm) return true;
             for (std::size_t other = 0; other < looks_.size(); ++other) {
                 const Plane& plane = looks_[other].plane();
-                if (other == own || other == to || norm(cross(plane.normal, way.direction)) < kLeastSine) continue;
-                if (std::abs(plane.distance_to(place)) >= kNear * way.length_mm) continue;
+                if (other == own || other == to || norm(cross(plane.normal, direction)) < kLeastSine) continue;
+                if (std::abs(plane.distance_to(place)) >= kNear * length_mm) continue;
                 const Point2 at = plane.to_uv(place);
-                if (!looks_[other].contains(at) && !is_silent(looks_[other], at, way.length_mm)) return true;
+                if (!looks_[other].contains(at) && !is_silent(looks_[other], at, length_mm)) return true;
             }
         }
         return false;
@@ -282,6 +303,7 @@ void check_ways(std::span<const PlaneLook> looks, const ContourSet& set, const D
         beyond.ask(own, ahead, behind, questions);
         beyond.ask(own, behind, ahead, questions);
     }
+    for (const BentWays& bent : bent_ways(looks)) between.ask(bent, questions);
     questions.answer(values);
     between.answer(questions, check);
     beyond.answer(questions, check);

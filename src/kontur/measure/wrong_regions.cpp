@@ -92,18 +92,18 @@ struct Region {
 
 /// Which regions of the drawing the result misses wholly, and which of the result the drawing does not know.
 struct Wholes {
-    PixelParts drawn, made;
+    PixelParts drawn, result;
     std::vector<bool> is_lost, is_island;
 
     explicit Wholes(const Sheet& sheet) : drawn(connected_parts(sheet.lattice, sheet.filled)) {
         std::vector<std::uint8_t> inside(sheet.values.size());
         for (std::size_t pixel = 0; pixel < inside.size(); ++pixel) inside[pixel] = sheet.is_inside(pixel);
-        made = connected_parts(sheet.lattice, inside);
+        result = connected_parts(sheet.lattice, inside);
         is_lost.assign(drawn.count + 1, true);
-        is_island.assign(made.count + 1, true);
+        is_island.assign(result.count + 1, true);
         for (std::size_t pixel = 0; pixel < inside.size(); ++pixel)
-            if (drawn.part[pixel] != 0 && made.part[pixel] != 0)
-                is_lost[drawn.part[pixel]] = is_island[made.part[pixel]] = false;
+            if (drawn.part[pixel] != 0 && result.part[pixel] != 0)
+                is_lost[drawn.part[pixel]] = is_island[result.part[pixel]] = false;
     }
 };
 
@@ -215,7 +215,7 @@ std::vector<WrongRegion> wrong_regions(const PlaneLook& look, const std::vector<
                 if (!is_missing && others.silence(look, place)) continue;
                 result.push_back({place, static_cast<double>(region.pixels.size()) * sheet->lattice.pixel_mm2(),
                                   sheet->depths[region.deepest], is_missing,
-                                  !is_missing && wholes.is_island[wholes.made.part[region.deepest]],
+                                  !is_missing && wholes.is_island[wholes.result.part[region.deepest]],
                                   is_missing && wholes.is_lost[wholes.drawn.part[region.deepest]],
                                   is_explained(region, look, *sheet, contradictions)});
             }

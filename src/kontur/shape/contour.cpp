@@ -253,16 +253,18 @@ std::optional<std::string> contour_problem(const Contour& contour, const std::st
 
 std::vector<std::string> leave_out_lines(ContourSet& set, const ContourCheckOptions& options) {
     if (!shows_without_lines(set, options)) return {};
-    std::vector<std::string> notes;
+    std::string first;
     std::vector<Contour> kept;
     for (std::size_t i = 0; i < set.contours.size(); ++i) {
-        if (lacks_area(set.contours[i], options))
-            notes.push_back(lack_of_area(set.contours[i], options, fmt::format("contour {}", i + 1)) +
-                            "; it was left out, and contours after it count one less");
-        else kept.push_back(std::move(set.contours[i]));
+        if (!lacks_area(set.contours[i], options)) kept.push_back(std::move(set.contours[i]));
+        else if (first.empty()) first = lack_of_area(set.contours[i], options, fmt::format("contour {}", i + 1));
     }
+    const std::size_t left_out = set.contours.size() - kept.size();
     set.contours = std::move(kept);
-    return notes;
+    if (left_out == 0) return {};
+    return {left_out == 1 ? first + "; it was left out, and contours after it count one less"
+                          : fmt::format("{}; it and {} more of that kind were left out, and those after them count less",
+                                        first, left_out - 1)};
 }
 
 std::vector<std::string> set_problems(const ContourSet& set) {

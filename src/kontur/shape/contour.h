@@ -114,7 +114,7 @@ std::optional<std::string> contour_problem(const Contour& contour, const std::st
 std::vector<std::string> set_problems(const ContourSet& set);
 
 /// Takes closed contours without area, which enclose nothing, out of a set that check_contours accepts with these options.
-/// One sentence for each, counted as they were before.
+/// One sentence says how many, and why the first of them, counted as they were before.
 std::vector<std::string> leave_out_lines(ContourSet& set, const ContourCheckOptions& options = {});
 
 /// Number of contour points outside of the grid's voxels (their outer faces belong to the grid).

@@ -44,20 +44,20 @@ std::vector<Drawn> drawn_planes(const ContourSet& set) {
     return planes;
 }
 
-struct Line {
+struct SpanLine {
     Vec3 origin, direction;
     double sine;  ///< of the angle between the planes
 
     double along(const Vec3& p) const { return dot(direction, p - origin); }
 };
 
-std::optional<Line> common_line(const Plane& a, const Plane& b, const Vec3& near) {
+std::optional<SpanLine> common_line(const Plane& a, const Plane& b, const Vec3& near) {
     const Vec3 direction = cross(a.normal, b.normal);
     const double sine = norm(direction);
     if (sine < kLeastSine) return std::nullopt;
     const double da = a.distance_to(near), db = b.distance_to(near), cosine = dot(a.normal, b.normal);
     const double wa = (da - cosine * db) / (sine * sine), wb = (db - cosine * da) / (sine * sine);
-    return Line{near - wa * a.normal - wb * b.normal, direction / sine, sine};
+    return SpanLine{near - wa * a.normal - wb * b.normal, direction / sine, sine};
 }
 
 /// Where an outline of a section passes through another plane.
@@ -77,7 +77,7 @@ struct Distance {
 };
 
 /// All of one section's passages in order along the line: the object begins at the first, ends at the second, and so on.
-std::vector<Passage> passages(const Section& section, const Plane& other, const Line& line) {
+std::vector<Passage> passages(const Section& section, const Plane& other, const SpanLine& line) {
     const Distance distance(section.plane, other);
     std::vector<Passage> found;
     for (std::size_t o = 0; o < section.outlines.size(); ++o) {
@@ -108,7 +108,7 @@ bool reaches(const Box3& box, const Plane& plane) {
 
 /// How far the part of an outline between two passages reaches beyond the other plane, in mm within its own plane; of the
 /// two parts the lesser.
-double depth_between(const Section& section, const Plane& other, const Line& line, const Passage& a, const Passage& b) {
+double depth_between(const Section& section, const Plane& other, const SpanLine& line, const Passage& a, const Passage& b) {
     if (a.outline != b.outline) return std::numeric_limits<double>::infinity();
     const Distance distance(section.plane, other);
     const Polygon2& outline = section.outlines[a.outline];
@@ -124,7 +124,7 @@ double depth_between(const Section& section, const Plane& other, const Line& lin
 /// Two planes whose contours meet on a line.
 class PlanePair {
 public:
-    PlanePair(const Searched& a, const Searched& b, const Line& line)
+    PlanePair(const Searched& a, const Searched& b, const SpanLine& line)
         : sections_{&a.section, &b.section}, searches_{&a.search, &b.search}, line_(line) {}
 
     /// In order along the line the passages of both planes form pairs: between the two of a pair the planes contradict each
@@ -186,7 +186,7 @@ private:
 
     const Section* sections_[2];
     const SectionSearch* searches_[2];
-    Line line_;
+    SpanLine line_;
 };
 
 void add(const Crossing& crossing, Disagreement& sum) {

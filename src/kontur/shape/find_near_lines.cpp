@@ -14,19 +14,19 @@ namespace {
 
 constexpr double kNear = 1.0 / 3;  // of what the larger line encloses
 
-struct Line {
+struct RingLine {
     Section section;
     double enclosed_mm2, length_mm;
 };
 
-Line line_of(const Contour& contour, const Plane& plane) {
+RingLine line_of(const Contour& contour, const Plane& plane) {
     Section section = section_of(contour, plane);
     const double enclosed = area(section.outlines.front());
     return {std::move(section), enclosed, line_length(contour.points, true)};
 }
 
 /// Of a line's places from another line, on average.
-double mean_distance_mm(const Line& of, const Line& from) {
+double mean_distance_mm(const RingLine& of, const RingLine& from) {
     constexpr std::size_t kMostEdges = 2000;
     const SectionSearch search(from.section);
     const Polygon2& points = of.section.outlines.front();
@@ -45,7 +45,7 @@ double mean_distance_mm(const Line& of, const Line& from) {
 std::optional<NearLines> near_lines(const std::vector<Contour>& contours, std::size_t contour, std::size_t other,
                                     bool are_nested) {
     const Plane& plane = contours[other].plane;
-    const Line a = line_of(contours[contour], plane), b = line_of(contours[other], plane);
+    const RingLine a = line_of(contours[contour], plane), b = line_of(contours[other], plane);
     const auto [less, more] = std::minmax(a.enclosed_mm2, b.enclosed_mm2);
     if (less < (1 - kNear) / 2 * more) return std::nullopt;  // far from near
     const double apart = (mean_distance_mm(a, b) + mean_distance_mm(b, a)) / 2;

@@ -20,14 +20,16 @@ class NearestPoint {
 public:
     explicit NearestPoint(const Point2& p) : p_(p) {}
 
-    void look_at(const Point2& a, const Point2& b, std::size_t outline) {
+    /// At the edge that leads to point `end`.
+    void look_at(const Polygon2& line, std::size_t end, std::size_t outline) {
+        const Point2 &a = before(line, end), &b = line[end];
         const double ux = b[0] - a[0], uy = b[1] - a[1], px = p_[0] - a[0], py = p_[1] - a[1];
         const double length2 = ux * ux + uy * uy;
         const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0.0;
         const double dx = px - t * ux, dy = py - t * uy;
         if (dx * dx + dy * dy >= distance2_) return;
         distance2_ = dx * dx + dy * dy;
-        found_ = {0, {a[0] + t * ux, a[1] + t * uy}, outline};
+        found_ = {0, {a[0] + t * ux, a[1] + t * uy}, outline, end};
     }
 
     double distance2() const { return distance2_; }
@@ -106,7 +108,7 @@ bool Section::contains(const Point2& p) const {
 Section::Nearest Section::nearest(const Point2& p) const {
     NearestPoint nearest(p);
     for (std::size_t o = 0; o < outlines.size(); ++o)
-        for_each_edge(outlines[o], [&](const Point2& a, const Point2& b) { nearest.look_at(a, b, o); });
+        for (std::size_t i = 0; i < outlines[o].size(); ++i) nearest.look_at(outlines[o], i, o);
     return nearest.found();
 }
 
@@ -163,7 +165,7 @@ Section::Nearest SectionSearch::nearest(const Point2& p) const {
         const Polygon2& outline = section_.outlines[stretch.outline];
         NearestPoint here(p);
         for (std::size_t i = stretch.begin; i < stretch.end; ++i)
-            here.look_at(before(outline, i), outline[i], stretch.outline);
+            here.look_at(outline, i, stretch.outline);
         // Of places equally near the section finds the first.
         if (std::pair(here.distance2(), s) >= std::pair(nearest.distance2(), nearest_stretch)) return;
         nearest = here;

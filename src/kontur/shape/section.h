@@ -36,6 +36,7 @@ struct Section {
         double distance = std::numeric_limits<double>::infinity();
         Point2 position{};
         std::size_t outline = 0;
+        std::size_t end = 0;  ///< the point of the outline that its edge leads to
     };
 
     /// What the outline adds to the contours around a point in it.

@@ -2,14 +2,14 @@
 #include "kontur/solve/gaussian_posterior.h"
 
 #include <fmt/format.h>
-#include <lapacke.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
-#include "kontur/solve/blas_threads.h"
+#include "kontur/solve/small_cholesky.h"
 
 namespace kontur {
 namespace {
@@ -29,28 +29,58 @@ std::vector<double> roots(std::span<const double> precision) {
     return s;
 }
 
-/// Cholesky's factor of I + S K S in the lower triangle.
+/// Cholesky's factor of I + S K S in the lower triangle, columns `padded_rows(n)` apart. Not BLAS's, whose bytes differ from
+/// machine to machine.
 std::vector<double> factor(std::span<const double> prior, const std::vector<double>& s) {
     const std::size_t n = s.size();
-    std::vector<double> matrix(n * n);
+    const auto rows = static_cast<int>(n);
+    const auto lead = static_cast<std::size_t>(padded_rows(rows));
+    std::vector<double> matrix(lead * n);
     for (std::size_t j = 0; j < n; ++j)
-        for (std::size_t i = j; i < n; ++i) matrix[i + n * j] = s[i] * prior[i + n * j] * s[j] + (i == j ? 1.0 : 0.0);
-    const auto lead = static_cast<lapack_int>(n);
-    if (LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', lead, matrix.data(), lead) != 0)
+        for (std::size_t i = j; i < n; ++i) matrix[i + lead * j] = s[i] * prior[i + n * j] * s[j] + (i == j ? 1.0 : 0.0);
+    if (!small_cholesky(matrix.data(), rows))
         throw Error(ErrorKind::singular_system, "the prior covariance is not positive definite");
     return matrix;
 }
 
+/// K x, from the lower triangle of K.
+std::vector<double> product(std::span<const double> symmetric, std::span<const double> x) {
+    const std::size_t n = x.size();
+    std::vector<double> y(n);
+    for (std::size_t j = 0; j < n; ++j) {
+        const double* column = &symmetric[n * j];
+        double sum = column[j] * x[j];
+        for (std::size_t i = j + 1; i < n; ++i) {
+            sum += column[i] * x[i];
+            y[i] += column[i] * x[j];
+        }
+        y[j] += sum;
+    }
+    return y;
+}
+
+using Sides = std::array<double, kForwardSides>;
+
+/// Squared lengths of the columns of L^-1 X, which overwrites X; its rows before `first` are zero.
+Sides squared_lengths(const std::vector<double>& lower, std::size_t n, std::size_t first, std::vector<double>& x) {
+    small_cholesky_forward(lower.data(), static_cast<int>(n), static_cast<int>(first), x.data());
+    Sides sums{};
+    for (std::size_t i = first; i < n; ++i)
+        for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += x[i * sums.size() + c] * x[i * sums.size() + c];
+    return sums;
+}
+
 /// Those of numbers that were seen clearly: (1 - (I + S K S)^-1_ii) / s_i^2, the inverse's diagonal from that of the factor.
 /// Where s_i^2 K_ii is small, that loses digits.
-void add_clear_variances(const std::vector<double>& s, std::vector<double> lower, std::vector<double>& variance) {
+void add_clear_variances(const std::vector<double>& s, const std::vector<double>& lower, std::vector<double>& variance) {
     const std::size_t n = s.size();
-    const auto lead = static_cast<lapack_int>(n);
-    LAPACKE_dtrtri(LAPACK_COL_MAJOR, 'L', 'N', lead, lower.data(), lead);
-    for (std::size_t j = 0; j < n; ++j) {
-        const auto rows = static_cast<int>(n - j);
-        const double inverse = cblas_ddot(rows, &lower[j + n * j], 1, &lower[j + n * j], 1);
-        if (s[j] > 0) variance[j] = (1 - inverse) / (s[j] * s[j]);
+    for (std::size_t first = 0; first < n; first += kForwardSides) {
+        const std::size_t count = std::min<std::size_t>(kForwardSides, n - first);
+        std::vector<double> x(n * kForwardSides);
+        for (std::size_t c = 0; c < count; ++c) x[(first + c) * kForwardSides + c] = 1;
+        const Sides inverse = squared_lengths(lower, n, first, x);
+        for (std::size_t c = 0; c < count; ++c)
+            if (const double root = s[first + c]; root > 0) variance[first + c] = (1 - inverse[c]) / (root * root);
     }
 }
 
@@ -58,15 +88,16 @@ void add_clear_variances(const std::vector<double>& s, std::vector<double> lower
 void add_variances_of(const std::vector<std::size_t>& columns, std::span<const double> prior, const std::vector<double>& s,
                       const std::vector<double>& lower, std::vector<double>& variance) {
     const std::size_t n = s.size();
-    const auto lead = static_cast<int>(n);
-    std::vector<double> v(n * columns.size());
-    for (std::size_t c = 0; c < columns.size(); ++c)
-        for (std::size_t i = 0; i < n; ++i) v[i + n * c] = s[i] * prior[i + n * columns[c]];
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, lead, static_cast<int>(columns.size()),
-                1.0, lower.data(), lead, v.data(), lead);
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        const std::size_t j = columns[c];
-        variance[j] = prior[j + n * j] - cblas_ddot(lead, &v[n * c], 1, &v[n * c], 1);
+    for (std::size_t done = 0; done < columns.size(); done += kForwardSides) {
+        const std::size_t count = std::min<std::size_t>(kForwardSides, columns.size() - done);
+        std::vector<double> v(n * kForwardSides);
+        for (std::size_t c = 0; c < count; ++c)
+            for (std::size_t i = 0; i < n; ++i) v[i * kForwardSides + c] = s[i] * prior[i + n * columns[done + c]];
+        const Sides seen = squared_lengths(lower, n, 0, v);
+        for (std::size_t c = 0; c < count; ++c) {
+            const std::size_t j = columns[done + c];
+            variance[j] = prior[j + n * j] - seen[c];
+        }
     }
 }
 
@@ -92,20 +123,15 @@ GaussianPosterior gaussian_posterior(std::span<const double> prior, std::span<co
     check_same_count("pieces of information", information.size(), "numbers", n);
     const std::vector<double> s = roots(precision);
     if (n == 0) return {};
-    const SingleThreadedBlas guard;
-    const auto lead = static_cast<int>(n);
     const std::vector<double> lower = factor(prior, s);
 
     // weights = v - S (I + S K S)^-1 S K v, v the information.
-    GaussianPosterior posterior{std::vector<double>(n), std::vector<double>(n), {information.begin(), information.end()}};
-    std::vector<double> seen(n);
-    cblas_dsymv(CblasColMajor, CblasLower, lead, 1.0, prior.data(), lead, information.data(), 1, 0.0, seen.data(), 1);
+    GaussianPosterior posterior{{}, {}, {information.begin(), information.end()}};
+    std::vector<double> seen = product(prior, information);
     for (std::size_t i = 0; i < n; ++i) seen[i] *= s[i];
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, lead, lower.data(), lead, seen.data(), 1);
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, lead, lower.data(), lead, seen.data(), 1);
+    small_cholesky_solve(lower.data(), static_cast<int>(n), seen.data());
     for (std::size_t i = 0; i < n; ++i) posterior.weights[i] -= s[i] * seen[i];
-    cblas_dsymv(CblasColMajor, CblasLower, lead, 1.0, prior.data(), lead, posterior.weights.data(), 1, 0.0,
-                posterior.mean.data(), 1);
+    posterior.mean = product(prior, posterior.weights);
 
     posterior.variance = variances(prior, s, lower);
     return posterior;

@@ -14,13 +14,18 @@ constexpr std::int32_t kMostProxies = 1024;
 
 std::int32_t rounded_up(std::int32_t n, std::int32_t step) { return (n + step - 1) / step * step; }
 
-/// phi between proxies (rows) and nodes (columns).
-KONTUR_EVERY_INSTRUCTION_SET void fill(Kernel kernel, const PointArrays& proxies, const PointArrays& nodes, NodeRun run,
+struct NodesOfRun {
+    const PointArrays& nodes;
+    NodeRun run;
+};
+
+/// phi between proxies (rows) and nodes (columns, `lead` apart).
+KONTUR_EVERY_INSTRUCTION_SET void fill(Kernel kernel, const PointArrays& proxies, const NodesOfRun& columns,
                                        std::int32_t lead, double* a) {
     const auto rows = static_cast<std::int32_t>(proxies.size());
     const double *x = proxies.x.data(), *y = proxies.y.data(), *z = proxies.z.data();
-    for (std::int32_t j = run.begin; j < run.end; ++j, a += lead) {
-        const Vec3 node = nodes[static_cast<std::size_t>(j)];
+    for (std::int32_t j = columns.run.begin; j < columns.run.end; ++j, a += lead) {
+        const Vec3 node = columns.nodes[static_cast<std::size_t>(j)];
         for (std::int32_t i = 0; i < rows; ++i) {
             const double dx = x[i] - node.x, dy = y[i] - node.y, dz = z[i] - node.z;
             const double squared = dx * dx + dy * dy + dz * dz;
@@ -36,9 +41,10 @@ double largest_extent(const ClusterTree& tree) { return std::max(tree.clusters.f
 
 }  // namespace
 
-NestedBasis::NestedBasis(Kernel kernel, const PointArrays& points, const ClusterTree& tree, const std::vector<bool>& used,
-                         const H2Options& options, const Work& work)
-    : tree_(tree), skeletons_(tree.clusters.size()), interpolations_(tree.clusters.size()) {
+NestedBasis::NestedBasis(Kernel kernel, const PointArrays& points, const UsedClusters& clusters, const H2Options& options,
+                         const Work& work)
+    : tree_(clusters.tree), skeletons_(tree_.clusters.size()), interpolations_(tree_.clusters.size()) {
+    const ClusterTree& tree = tree_;
     for (const std::int32_t p : tree.order) {
         nodes_.x.push_back(points.x[static_cast<std::size_t>(p)]);
         nodes_.y.push_back(points.y[static_cast<std::size_t>(p)]);
@@ -51,7 +57,7 @@ NestedBasis::NestedBasis(Kernel kernel, const PointArrays& points, const Cluster
         parallel_for(last - first, 4, work, [&](std::int64_t begin, std::int64_t end) {
             std::vector<double> a;
             for (auto c = static_cast<std::size_t>(first + begin); c < static_cast<std::size_t>(first + end); ++c) {
-                if (!used[c]) continue;
+                if (!clusters.used[c]) continue;
                 work.check();
                 const Cluster& cluster = tree.clusters[c];
                 const NodeRun run = candidates(cluster);
@@ -59,7 +65,7 @@ NestedBasis::NestedBasis(Kernel kernel, const PointArrays& points, const Cluster
                 const std::int32_t lead = rounded_up(rows, kRowsPerStep);
                 const double nearest = std::max(cluster.diameter() / options.eta, 1e-9 * reach);
                 a.resize(static_cast<std::size_t>(lead) * static_cast<std::size_t>(run.size()));
-                fill(kernel, shells.around(cluster, nearest, rows), nodes_, run, lead, a.data());
+                fill(kernel, shells.around(cluster, nearest, rows), {nodes_, run}, lead, a.data());
                 interpolations_[c] = interpolate_columns(a.data(), rows, lead, run.size(), options.tolerance);
             }
         });

@@ -16,6 +16,12 @@ struct H2Options {
     std::int32_t leaf_size = 64;
 };
 
+/// Clusters of points, and which of them need a skeleton; the descendants of such a cluster need one, too.
+struct UsedClusters {
+    const ClusterTree& tree;
+    const std::vector<bool>& used;
+};
+
 /// Nested cluster bases on the points themselves: seen from afar, the weights of a cluster's points may be moved to its
 /// skeleton, a few of its own points, and a field is determined on all its points by its values on the skeleton. The
 /// skeleton of a cluster is chosen from its children's (Martinsson & Rokhlin 2005).
@@ -23,9 +29,9 @@ struct H2Options {
 /// All nodes stand in one sequence: first the points in the tree's order, then the skeletons, finest level first.
 class NestedBasis {
 public:
-    /// `used` tells for every cluster whether it needs a skeleton; the descendants of such a cluster must have one, too.
-    NestedBasis(Kernel kernel, const PointArrays& points, const ClusterTree& tree, const std::vector<bool>& used,
-                const H2Options& options, const Work& work);
+    /// The tree must outlive it.
+    NestedBasis(Kernel kernel, const PointArrays& points, const UsedClusters& clusters, const H2Options& options,
+                const Work& work);
 
     const PointArrays& nodes() const { return nodes_; }  ///< with kNodePadding more at the end
     std::int32_t node_count() const { return static_cast<std::int32_t>(nodes_.size()) - kNodePadding; }

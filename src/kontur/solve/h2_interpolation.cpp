@@ -31,10 +31,18 @@ KONTUR_EVERY_INSTRUCTION_SET void scale(double* a, std::int32_t lead, double fac
     for (std::int32_t i = 0; i < lead; ++i) a[i] *= factor;
 }
 
-/// Removes the unit vector q from the columns a[0], a[lead], ...: gives q.a before, `stride` apart, and a.a after.
-KONTUR_EVERY_INSTRUCTION_SET void remove(const double* q, double* a, std::int32_t lead, std::int32_t columns,
-                                         double* products, std::int32_t stride, double* squares) {
-    for (std::int32_t j = 0; j < columns; ++j, a += lead) {
+/// Columns of a matrix, `lead` apart.
+struct Columns {
+    double* first;
+    std::int32_t lead, count;
+};
+
+/// Removes the unit vector q from the columns a: gives q.a before, `stride` apart, and a.a after.
+KONTUR_EVERY_INSTRUCTION_SET void remove(const double* q, const Columns& columns, double* products, std::int32_t stride,
+                                         double* squares) {
+    const std::int32_t lead = columns.lead;
+    double* a = columns.first;
+    for (std::int32_t j = 0; j < columns.count; ++j, a += lead) {
         Pack sum0{}, sum1{};
         for (std::int32_t i = 0; i < lead; i += 2 * kLanes) {
             const auto *u = reinterpret_cast<const Pack*>(q + i), *v = reinterpret_cast<const Pack*>(a + i);
@@ -98,7 +106,7 @@ Interpolation interpolate_columns(double* a, std::int32_t rows, std::int32_t lea
         scale(column(k), lead, 1 / length);
         r[static_cast<std::size_t>(k) * columns + k] = length;
         if (k + 1 < columns)
-            remove(column(k), column(k + 1), lead, columns - k - 1, &r[static_cast<std::size_t>(k + 1) * columns + k],
+            remove(column(k), {column(k + 1), lead, columns - k - 1}, &r[static_cast<std::size_t>(k + 1) * columns + k],
                    columns, &squares[k + 1]);
         result.rank = k + 1;
     }

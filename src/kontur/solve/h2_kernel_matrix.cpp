@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMostGroups = 16;
 
 /// Clusters in far pairs and all below them.
-std::vector<bool> clusters_with_basis(const ClusterTree& tree, const Partition& partition) {
+std::vector<bool> clusters_with_basis(const ClusterTree& tree, const PairPartition& partition) {
     std::vector<bool> used(tree.clusters.size());
     for (const ClusterPair& pair : partition.far)
         used[static_cast<std::size_t>(pair.a)] = used[static_cast<std::size_t>(pair.b)] = true;
@@ -38,7 +38,7 @@ H2KernelMatrix::H2KernelMatrix(Kernel kernel, const PointArrays& points, const H
       work_(work),
       tree_(points, options.leaf_size, work),
       partition_(partition_pairs(tree_, options.eta)),
-      basis_(kernel, points, tree_, clusters_with_basis(tree_, partition_), options, work) {
+      basis_(kernel, points, {tree_, clusters_with_basis(tree_, partition_)}, options, work) {
     add_rows(partition_.near, false);
     add_rows(partition_.far, true);
     partition_ = {};

@@ -46,7 +46,7 @@ private:
     Kernel kernel_;
     Work work_;
     ClusterTree tree_;
-    Partition partition_;
+    PairPartition partition_;
     NestedBasis basis_;
     std::vector<Row> rows_;
     std::vector<NodeRun> rights_;

@@ -8,7 +8,7 @@ namespace {
 
 class PairSplitter {
 public:
-    PairSplitter(const ClusterTree& tree, double eta, Partition& result) : tree_(tree), eta_(eta), result_(result) {}
+    PairSplitter(const ClusterTree& tree, double eta, PairPartition& result) : tree_(tree), eta_(eta), result_(result) {}
 
     void split_own(std::int32_t c) {
         const Cluster& cluster = at(c);
@@ -42,13 +42,13 @@ private:
 
     const ClusterTree& tree_;
     double eta_;
-    Partition& result_;
+    PairPartition& result_;
 };
 
 }  // namespace
 
-Partition partition_pairs(const ClusterTree& tree, double eta) {
-    Partition result;
+PairPartition partition_pairs(const ClusterTree& tree, double eta) {
+    PairPartition result;
     PairSplitter(tree, eta, result).split_own(0);
     for (auto* pairs : {&result.far, &result.near})
         std::sort(pairs->begin(), pairs->end(),

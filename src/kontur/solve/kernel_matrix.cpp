@@ -45,7 +45,7 @@ void DirectKernelMatrix::multiply_few(std::span<const double> weights, std::span
         few.push_back(all.back());
         few_weights.push_back(weights[i]);
     }
-    sum_kernel(kernel_, PointArrays(few), few_weights, PointArrays(all), out, work_);
+    sum_kernel({kernel_, PointArrays(few), few_weights}, PointArrays(all), out, work_);
 }
 
 void DirectKernelMatrix::multiply_all(std::span<const double> weights, std::span<double> out) const {

@@ -60,7 +60,7 @@ void add_even_powers(Kernel kernel, const PointArrays& centers, std::span<const 
 
 double largest_residual(const LinearSystem& system, const Coefficients& c, const Work& work) {
     std::vector<double> sums(system.size());
-    sum_kernel(system.kernel, system.centers, c.weights, system.centers, sums, work);
+    sum_kernel({system.kernel, system.centers, c.weights}, system.centers, sums, work);
     add_even_powers(system.kernel, system.centers, c.weights, sums);
     double largest = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {

@@ -54,7 +54,7 @@ void PreconditionerPattern::cut_into_supernodes(const MultiscaleOrder& order) {
                 Box3 grown = box;
                 grown.extend(points_[static_cast<std::size_t>(end)]);
                 const Vec3 size = grown.size();
-                if (end > begin && std::max({size.x, size.y, size.z}) > widest) break;
+                if (end > begin && largest(size) > widest) break;
                 box = grown;
                 ++end;
             }

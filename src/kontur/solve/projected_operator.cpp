@@ -105,7 +105,7 @@ double ProjectedOperator::sampled_deviation(const Vector& w, const Vector& image
             positions.push_back(system_.centers[points.back()]);
         }
         Vector exact(points.size());
-        sum_kernel(system_.kernel, system_.centers, w, PointArrays(positions), exact, work_);
+        sum_kernel({system_.kernel, system_.centers, w}, PointArrays(positions), exact, work_);
         for (std::size_t s = 0; s < points.size(); ++s) {
             const double sum = exact[s] + powers.value(positions[s]);
             const double expected = sign * sum + system_.smoothing[points[s]] * w[points[s]];

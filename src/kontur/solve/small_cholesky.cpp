@@ -90,19 +90,24 @@ bool small_cholesky(double* a, int n) {
 
 namespace {
 
+struct Factor {
+    const double* l;
+    int n, lead;
+};
+
 /// Columns j - kTile + 1 ... j of G from those behind them, for kPacks packs of rows; see last_rows_of_inverse.
 template <int kPacks>
-[[gnu::always_inline]] inline void subtract_later(const double* l, int n, int lead, int j, double* g, int stride) {
+[[gnu::always_inline]] inline void subtract_later(const Factor& factor, int j, double* g, int stride) {
     const int first = j - kTile + 1;
     Pack sum[kTile][kPacks];
     for (int c = 0; c < kTile; ++c)
         for (std::ptrdiff_t p = 0; p < kPacks; ++p)
             sum[c][p] = pack(g + static_cast<std::ptrdiff_t>(first + c) * stride + p * kLanes);
-    for (int k = j + 1; k < n; ++k) {
+    for (int k = j + 1; k < factor.n; ++k) {
         const double* gk = g + static_cast<std::ptrdiff_t>(k) * stride;
 #pragma GCC unroll 4
         for (int c = 0; c < kTile; ++c) {
-            const double f = column(l, lead, first + c)[k];
+            const double f = column(factor.l, factor.lead, first + c)[k];
 #pragma GCC unroll 4
             for (std::ptrdiff_t p = 0; p < kPacks; ++p) sum[c][p] -= f * pack(gk + p * kLanes);
         }
@@ -124,8 +129,8 @@ KONTUR_EVERY_INSTRUCTION_SET void last_rows_of_inverse(const double* l, int n, i
         const int begin = std::max(0, end - kTile);
         int p = 0;
         if (end - begin == kTile) {
-            for (; p + 4 * kLanes <= stride; p += 4 * kLanes) subtract_later<4>(l, n, lead, end - 1, g + p, stride);
-            for (; p < stride; p += kLanes) subtract_later<1>(l, n, lead, end - 1, g + p, stride);
+            for (; p + 4 * kLanes <= stride; p += 4 * kLanes) subtract_later<4>({l, n, lead}, end - 1, g + p, stride);
+            for (; p < stride; p += kLanes) subtract_later<1>({l, n, lead}, end - 1, g + p, stride);
         }
         for (int j = end - 1; j >= begin; --j) {
             double* gj = column(g, stride, j);
@@ -138,6 +143,31 @@ KONTUR_EVERY_INSTRUCTION_SET void last_rows_of_inverse(const double* l, int n, i
     }
     for (int r = 0; r < m; ++r)
         for (int j = 0; j < n; ++j) rows[static_cast<std::ptrdiff_t>(r) * n + j] = column(g, stride, j)[r];
+}
+
+KONTUR_EVERY_INSTRUCTION_SET void small_cholesky_forward(const double* l, int n, int first, double* x) {
+    constexpr int kPacks = kForwardSides / kLanes;
+    const int lead = padded_rows(n);
+    const auto row = [x](int i) { return x + static_cast<std::ptrdiff_t>(i) * kForwardSides; };
+    for (int begin = first; begin < n; begin += kTile) {
+        const int end = std::min(n, begin + kTile);
+        Pack sum[kTile][kPacks] = {};
+        for (int k = first; k < begin; ++k) {
+            const double* lk = column(l, lead, k) + begin;  // behind the last row is padding, which counts for nothing
+#pragma GCC unroll 4
+            for (int c = 0; c < kTile; ++c)
+#pragma GCC unroll 4
+                for (int p = 0; p < kPacks; ++p) sum[c][p] += lk[c] * pack(row(k) + p * kLanes);
+        }
+        for (int i = begin; i < end; ++i) {
+            const double inverse = 1 / column(l, lead, i)[i];
+            for (int p = 0; p < kPacks; ++p) {
+                Pack value = pack(row(i) + p * kLanes) - sum[i - begin][p];
+                for (int k = begin; k < i; ++k) value -= column(l, lead, k)[i] * pack(row(k) + p * kLanes);
+                pack(row(i) + p * kLanes) = value * inverse;
+            }
+        }
+    }
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void small_cholesky_solve(const double* l, int n, double* x) {

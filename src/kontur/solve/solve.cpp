@@ -97,7 +97,7 @@ std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOp
     extents.resize(constraints.size(), 1.0);
     for (double& extent : extents) extent *= drawn_radius_mm(options, unit_mm) / unit_mm;
     std::vector<double> smoothing;
-    for (const double extent : extents) smoothing.push_back(options.smoothing * std::pow(extent, 3));
+    for (const double extent : extents) smoothing.push_back(*options.smoothing * std::pow(extent, 3));
     for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
         smoothing[i] += smoothing_of_noise(constraints.noise_mm[i] / unit_mm) * extents[i];
     for (std::size_t i = 0; i < constraints.trust.size(); ++i) {
@@ -105,7 +105,7 @@ std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOp
         if (!std::isfinite(smoothing[i]))
             throw Error(ErrorKind::invalid_input,
                         fmt::format("the smoothing is {:g}; divided by {:g}, the trust in constraint {}, it is not finite",
-                                    options.smoothing, constraints.trust[i], i + 1));
+                                    *options.smoothing, constraints.trust[i], i + 1));
     }
     return smoothing;
 }
@@ -159,6 +159,12 @@ std::string_view name(Solver solver) noexcept {
     return "?";
 }
 
+SolveOptions resolved(SolveOptions options, double diameter_mm) {
+    options.smoothing = options.smoothing.value_or(kSmoothing);
+    options.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diameter_mm);
+    return options;
+}
+
 void check_solve_options(const SolveOptions& options) {
     if (options.ball &&
         !(is_finite(options.ball->center) && options.ball->radius >= 0 && std::isfinite(options.ball->radius)))
@@ -167,12 +173,8 @@ void check_solve_options(const SolveOptions& options) {
             fmt::format("the ball that sets the unit has a radius of {:g} mm; it and the centre must be finite and the "
                         "radius at least 0",
                         options.ball->radius));
-    if (!(options.tolerance_mm > 0 && std::isfinite(options.tolerance_mm)))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the solver's tolerance is {:g} mm; it must be finite and above 0", options.tolerance_mm));
-    if (!(options.smoothing >= 0 && std::isfinite(options.smoothing)))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the smoothing is {:g}; it must be finite and at least 0", options.smoothing));
+    if (options.tolerance_mm) check_above_0("the solver's tolerance", *options.tolerance_mm, " mm");
+    if (options.smoothing) check_not_below_0("the smoothing", *options.smoothing);
     if (!std::isfinite(options.mean_radii))
         throw Error(ErrorKind::invalid_input,
                     fmt::format("the function's mean is {:g} radii; it must be finite", options.mean_radii));
@@ -193,7 +195,9 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
 
     const bool screened = options.kernel == Kernel::screened;
     const UnitFrame frame = frame_of(constraints, options);
-    const double mean = screened ? options.mean_radii * drawn_radius_mm(options, frame.scale) : 0;
+    const double radius_mm = drawn_radius_mm(options, frame.scale);
+    options = resolved(options, 2 * radius_mm);
+    const double mean = screened ? options.mean_radii * radius_mm : 0;
     LinearSystem system{options.kernel, smoothing_of(constraints, options, frame.scale),
                         PointArrays(frame.to_unit(constraints.centers)), constraints.values};
     for (double& value : system.values) value -= mean;

@@ -19,17 +19,29 @@ namespace kontur {
 /// The mean of the screened kernel's functions in radii of the ball, outside.
 inline constexpr double kMeanRadii = -1;
 
+/// Where no length is given, of the diameter of what was drawn: 0.004 mm on a liver.
+inline constexpr double kToleranceFraction = 1.5e-5;
+/// Where none is given. docs/decisions/0001-surface-normals.md has the measurements.
+inline constexpr double kSmoothing = 1e-5;
+
 struct SolveOptions {
     Kernel kernel = Kernel::screened;
     std::optional<Ball3> ball{};     ///< mm, of what was drawn, sets the unit; unset: the smallest one of all constraints
     double mean_radii = kMeanRadii;  ///< screened kernel: the functions' mean, in radii of the ball
     Solver solver = Solver::automatic;
-    double smoothing = 0;        ///< >= 0, on unit coordinates, divided by each constraint's trust; 0: exact
-    double tolerance_mm = 1e-3;  ///< iterative only: largest |f(c_i) - h_i| over all constraints at which it stops
-    int max_iterations = 500;    ///< iterative only
+    /// >= 0, on unit coordinates, divided by each constraint's trust; 0: exact; unset: kSmoothing, or 0 where `fit` takes
+    /// in-plane normals.
+    std::optional<double> smoothing{};
+    /// Iterative only: largest |f(c_i) - h_i| over all constraints at which it stops; unset: kToleranceFraction of the
+    /// ball's diameter.
+    std::optional<double> tolerance_mm{};
+    int max_iterations = 500;                 ///< iterative only
     Products products = Products::automatic;  ///< iterative only
     double max_memory_mb = 16384;             ///< a dense matrix larger than this is refused
 };
+
+/// The same options with the smoothing and the tolerance for what was drawn where they are not given.
+SolveOptions resolved(SolveOptions options, double diameter_mm);
 
 /// Throws Error(invalid_input) for a tolerance or memory limit that is not above 0, a smoothing below 0, a tolerance or
 /// smoothing that is not finite, fewer than one iteration, and threads below 0.

@@ -89,7 +89,7 @@ public:
         : system_(system),
           options_(options),
           work_(work),
-          limit_(options.tolerance_mm),
+          limit_(*options.tolerance_mm),
           goal_(0.5 * limit_),
           polynomials_(system.kernel, system.centers),
           pattern_(system.pattern ? system.pattern
@@ -250,12 +250,12 @@ Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& opt
     IterativeSolver solver(system, options, work);
     solver.run();
     Coefficients c = solver.result();
-    if (!(c.residual <= 1e3 * options.tolerance_mm))
+    if (!(c.residual <= 1e3 * *options.tolerance_mm))
         throw Error(
             ErrorKind::singular_system,
             fmt::format("the iterative solver stopped at a residual of {:.3g} mm after {} iterations; {:.3g} mm were "
                         "asked for. Constraints coincide or contradict each other; the cholesky solver may help",
-                        c.residual, c.iterations, options.tolerance_mm));
+                        c.residual, c.iterations, *options.tolerance_mm));
     return c;
 }
 

@@ -74,14 +74,14 @@ PlaneStack even_stack(const std::vector<Vec3>& points, const Vec3& normal) {
 PlaneStack slice_stack(const std::vector<Vec3>& points, const Grid& grid, int axis) {
     PlaneStack stack{slice_normal(grid, axis), {}, {}};
     const Range range = range_along(points, stack.normal);
-    std::vector<Slice> within;
+    std::vector<ImageSlice> within;
     for (std::int64_t index = 0; index < grid.size[axis]; ++index) {
         const double offset = dot(slice_plane(grid, {axis, index}).origin, stack.normal);
         if (offset > range.low && offset < range.high) within.push_back({axis, index});
     }
     const std::size_t count = std::min(within.size(), kMostSlices);
     for (std::size_t n = 0; n < count; ++n) {
-        const Slice slice = within[(2 * n + 1) * within.size() / (2 * count)];
+        const ImageSlice slice = within[(2 * n + 1) * within.size() / (2 * count)];
         stack.slices.push_back(slice);
         stack.offsets_mm.push_back(dot(slice_plane(grid, slice).origin, stack.normal));
     }
@@ -96,7 +96,7 @@ Vec3 slice_normal(const Grid& grid, int axis) {
     return normalized(cross(grid.index_to_mm.column((axis + 1) % 3), grid.index_to_mm.column((axis + 2) % 3)));
 }
 
-Plane slice_plane(const Grid& grid, const Slice& slice) {
+Plane slice_plane(const Grid& grid, const ImageSlice& slice) {
     Vec3 middle{static_cast<double>(grid.size.i - 1) / 2, static_cast<double>(grid.size.j - 1) / 2,
                 static_cast<double>(grid.size.k - 1) / 2};
     middle[slice.axis] = static_cast<double>(slice.index);
@@ -108,7 +108,7 @@ Plane slice_plane(const Grid& grid, const Slice& slice) {
     return plane;
 }
 
-Slice nearest_slice(const Grid& grid, int axis, const Vec3& p) {
+ImageSlice nearest_slice(const Grid& grid, int axis, const Vec3& p) {
     const double index = std::round(grid.index_to_mm.inverse().apply(p)[axis]);
     return {axis, static_cast<std::int64_t>(std::clamp(index, 0.0, static_cast<double>(grid.size[axis] - 1)))};
 }

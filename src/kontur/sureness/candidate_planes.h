@@ -15,8 +15,8 @@ namespace kontur {
 /// Parallel planes: those through origin + offset * normal.
 struct PlaneStack {
     Vec3 normal;
-    std::vector<double> offsets_mm;  ///< from 0 of the frame along the normal
-    std::vector<Slice> slices{};     ///< one for each offset where they are an image's
+    std::vector<double> offsets_mm;    ///< from 0 of the frame along the normal
+    std::vector<ImageSlice> slices{};  ///< one for each offset where they are an image's
 };
 
 /// Directions of largest, middle and least extent, unit; their signs carry no meaning.

@@ -38,7 +38,7 @@ constexpr int kRounds = 5, kStepsPerRound = 3;
 /// A candidate and the surface in it.
 struct Cut {
     Plane plane;
-    std::optional<Slice> slice{};
+    std::optional<ImageSlice> slice{};
     std::vector<Vec3> line;  ///< points of the surface on the plane, in no order
     double gain = 0;
 };
@@ -98,7 +98,7 @@ public:
         return taken;
     }
 
-    Cut cut_by(const Plane& plane, const std::optional<Slice>& slice) const {
+    Cut cut_by(const Plane& plane, const std::optional<ImageSlice>& slice) const {
         Cut cut{.plane = plane, .slice = slice, .line = {}};
         for (const Vec3& p : evidence_.samples.points) {
             const double distance = plane.distance_to(p);
@@ -118,7 +118,7 @@ private:
             for (std::size_t n = 0; n < stack.offsets_mm.size(); ++n) {
                 const Plane plane = stack.slices.empty() ? make_plane(stack.offsets_mm[n] * stack.normal, stack.normal)
                                                          : slice_plane(*options_.grid, stack.slices[n]);
-                add(cuts, cut_by(plane, stack.slices.empty() ? std::optional<Slice>() : stack.slices[n]));
+                add(cuts, cut_by(plane, stack.slices.empty() ? std::optional<ImageSlice>() : stack.slices[n]));
             }
         return cuts;
     }
@@ -213,7 +213,7 @@ bool all_parallel(const std::vector<Plane>& planes) {
 
 /// The slice of the image nearest to a plane, across the axis that fits its normal best among those that lie across what was
 /// drawn.
-Slice slice_like(const Grid& grid, const Plane& plane, const Plane& drawn) {
+ImageSlice slice_like(const Grid& grid, const Plane& plane, const Plane& drawn) {
     int best = -1;
     const auto fit = [&](int axis) { return std::abs(dot(slice_normal(grid, axis), plane.normal)); };
     for (int axis = 0; axis < 3; ++axis)
@@ -225,7 +225,7 @@ Cut across(const Chooser& chooser, const SurfaceEvidence& evidence, const Contou
            const SuggestPlaneOptions& options) {
     const Plane plane = plane_across(contours);
     if (options.planes == PlaneChoice::any) return chooser.cut_by(plane, {});
-    const Slice slice = slice_like(*options.grid, plane, evidence.lines.planes().front());
+    const ImageSlice slice = slice_like(*options.grid, plane, evidence.lines.planes().front());
     return chooser.cut_by(slice_plane(*options.grid, slice), slice);
 }
 

@@ -22,8 +22,8 @@ struct SuggestPlaneOptions {
 };
 
 struct SuggestedPlane {
-    Plane plane;                   ///< its origin lies amid the predicted outline
-    std::optional<Slice> slice{};  ///< of the image, if the plane is one
+    Plane plane;                        ///< its origin lies amid the predicted outline
+    std::optional<ImageSlice> slice{};  ///< of the image, if the plane is one
     double gain = 0;  ///< share of the surface's distance from what is drawn that a contour here takes away, 0 to 1
     ExpectedDice before, after;  ///< without the contour and with it; zero where the surface is not known
 };

@@ -116,9 +116,9 @@ std::string planes_still(std::size_t planes, std::string_view dice) {
 }  // namespace
 
 std::string sentence(const SurfaceUncertainty& u) {
-    if (!u.is_known && u.planes >= kLeastPlanes) return "how sure the surface is cannot be told: on this grid there is none";
+    if (!u.is_known && u.planes >= kLeastPlanes) return "there is no surface on this grid, so how sure it is cannot be told";
     if (!u.is_known)
-        return fmt::format("how sure the surface is, {} do{} not tell; {} are needed", counted(u.planes, "plane"),
+        return fmt::format("{} do{} not tell how sure the surface is; {} are needed", counted(u.planes, "plane"),
                            u.planes == 1 ? "es" : "", kLeastPlanes);
     std::string text =
         fmt::format("expected Dice {} ({} to {}), volume {} ml ({} to {})", two_digits(u.dice.value), two_digits(u.dice.low),

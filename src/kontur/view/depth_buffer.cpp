@@ -40,13 +40,18 @@ double signed_area(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
+struct ScreenTriangle {
+    const ScreenPoint &a, &b, &c;
+};
+
 /// Fills one triangle at a time, clipped to a band of rows.
 class BandFiller {
 public:
     BandFiller(DepthBuffer& buffer, int first_row, int last_row)
         : buffer_(buffer), first_row_(first_row), last_row_(last_row) {}
 
-    void fill(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c) const {
+    void fill(const ScreenTriangle& triangle) const {
+        const auto& [a, b, c] = triangle;
         const double area = signed_area(a, b, c);
         const auto [x0, x1] = pixel_range(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), buffer_.width);
         const auto [y0, y1] = pixel_range(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), buffer_.height);
@@ -58,12 +63,13 @@ public:
                 const double wb = ((px - a.x) * (c.y - a.y) - (py - a.y) * (c.x - a.x)) / area;
                 const double wc = ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) / area;
                 const double wa = 1 - wb - wc;
-                if (wa >= kOutside && wb >= kOutside && wc >= kOutside) offer(x, y, a, b, c, {wa, wb, wc});
+                if (wa >= kOutside && wb >= kOutside && wc >= kOutside) offer(x, y, triangle, {wa, wb, wc});
             }
     }
 
 private:
-    void offer(int x, int y, const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const Vec3& weight) const {
+    void offer(int x, int y, const ScreenTriangle& triangle, const Vec3& weight) const {
+        const auto& [a, b, c] = triangle;
         auto& pixel =
             buffer_
                 .pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(buffer_.width) + static_cast<std::size_t>(x)];
@@ -106,7 +112,7 @@ DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, const W
         const BandFiller filler(buffer, first_row, std::min(first_row + kBandRows, camera.height) - 1);
         for (const std::uint32_t t : bands[static_cast<std::size_t>(band)]) {
             const auto& [a, b, c] = mesh.triangles[t];
-            filler.fill(points[a], points[b], points[c]);
+            filler.fill({points[a], points[b], points[c]});
         }
     });
     return buffer;

@@ -25,7 +25,7 @@ std::string rounded(double value, int digits) {
     return {text.data(), end};
 }
 
-void draw_scale_bar(Canvas& canvas, const Place& place, double pixel_mm) {
+void draw_scale_bar(Canvas& canvas, const PanelPlace& place, double pixel_mm) {
     const double length_mm = round_length(0.28 * place.rect.width * pixel_mm), length = length_mm / pixel_mm;
     const double x = place.rect.x + 16 * place.unit, y = place.rect.bottom() - 16 * place.unit, tick = 5 * place.unit;
     const std::array<Point2, 4> bar{{{x, y - tick}, {x, y}, {x + length, y}, {x + length, y - tick}}};
@@ -35,7 +35,7 @@ void draw_scale_bar(Canvas& canvas, const Place& place, double pixel_mm) {
                 {.size_px = 12.5 * place.unit, .color = kText, .align = Align::center, .halo = true});
 }
 
-void draw_edge_letters(Canvas& canvas, const Place& place, const Plane& screen) {
+void draw_edge_letters(Canvas& canvas, const PanelPlace& place, const Plane& screen) {
     const EdgeLetters letters = edge_letters(screen);
     const Rect inner = place.rect.inset(10 * place.unit);
     const double size = 17 * place.unit, cap = 0.73 * size;

@@ -22,7 +22,7 @@ inline constexpr Color kSurface{0.30, 0.79, 0.94};
 inline constexpr Color kMaterial{0.38, 0.64, 0.78};
 
 /// Where a panel stands, and the length in pixels of what measures 1 on a picture of 1600 x 1000.
-struct Place {
+struct PanelPlace {
     Rect rect;
     double unit = 1;
 };
@@ -35,13 +35,13 @@ std::string rounded(double value, int digits);
 Window window_about(const Image& image, const Box3& box_mm);
 
 /// A bar of a round length at the panel's lower left, with that length in mm.
-void draw_scale_bar(Canvas& canvas, const Place& place, double pixel_mm);
+void draw_scale_bar(Canvas& canvas, const PanelPlace& place, double pixel_mm);
 
 /// Letters at the middle of the four edges.
-void draw_edge_letters(Canvas& canvas, const Place& place, const Plane& screen);
+void draw_edge_letters(Canvas& canvas, const PanelPlace& place, const Plane& screen);
 
 /// The shaded surface with the drawn contours on it.
-void draw_surface_panel(Canvas& canvas, const Place& place, const TriangleMesh& mesh, const ContourSet& contours,
+void draw_surface_panel(Canvas& canvas, const PanelPlace& place, const TriangleMesh& mesh, const ContourSet& contours,
                         const Work& work);
 
 /// A slice of the image (may be null) with the contours and the surface's outline.
@@ -52,6 +52,6 @@ struct SliceContent {
     Window window;
     double pixel_mm;
 };
-void draw_slice_panel(Canvas& canvas, const Place& place, const Slice& slice, const SliceContent& content);
+void draw_slice_panel(Canvas& canvas, const PanelPlace& place, const Slice& slice, const SliceContent& content);
 
 }  // namespace kontur::picture

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kontur/base/checks.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/isolines.h"
 #include "kontur/view/panels.h"
@@ -15,7 +16,7 @@ namespace {
 
 using picture::kDrawn, picture::kFrame, picture::kGround, picture::kMuted, picture::kPanel, picture::kSurface,
     picture::kText;
-using picture::Place, picture::rounded, picture::window_about;
+using picture::PanelPlace, picture::rounded, picture::window_about;
 
 /// The picture's places: the surface on the left, 2 x 2 on the right (three slices and the table), title above, footer
 /// below.
@@ -58,10 +59,11 @@ double common_pixel_mm(const std::array<Slice, 3>& slices, const Rect& cell) {
 std::string volume(const TriangleMesh& mesh) { return in_ml(signed_volume_mm3(mesh) / 1000); }
 
 /// Without contours only the surface, which came without them.
-std::string subtitle(const TriangleMesh& mesh, const ContourSet& contours) {
+std::string subtitle(const TriangleMesh& mesh, const ContourSet& contours, bool has_surface) {
+    const std::string drawn = counted(contours.contours.size(), "drawn contour");
+    if (!has_surface) return drawn;
     const std::string surface = "surface of " + volume(mesh);
-    const std::size_t drawn = contours.contours.size();
-    return drawn == 0 ? surface : surface + " from " + std::to_string(drawn) + " drawn contours";
+    return contours.contours.empty() ? surface : surface + " from " + drawn;
 }
 
 std::string extent(const TriangleMesh& mesh) {
@@ -70,7 +72,8 @@ std::string extent(const TriangleMesh& mesh) {
 }
 
 std::vector<PictureFact> all_facts(const TriangleMesh& mesh, const ContourSet& contours, const PictureOptions& options) {
-    std::vector<PictureFact> facts{{"Volume (surface)", volume(mesh)}, {"Extent RL × AP × SI", extent(mesh)}};
+    std::vector<PictureFact> facts;
+    if (options.has_surface) facts = {{"Volume (surface)", volume(mesh)}, {"Extent RL × AP × SI", extent(mesh)}};
     if (!contours.contours.empty()) {
         facts.push_back({"Contours", std::to_string(contours.contours.size())});
         facts.push_back({"Points", std::to_string(point_count(contours))});
@@ -79,7 +82,7 @@ std::vector<PictureFact> all_facts(const TriangleMesh& mesh, const ContourSet& c
     return facts;
 }
 
-void draw_legend(Canvas& canvas, const Place& place, Point2 at) {
+void draw_legend(Canvas& canvas, const PanelPlace& place, Point2 at, bool has_surface) {
     const double u = place.unit, line = 25 * u;
     const TextStyle style{.size_px = 14 * u, .color = kText};
     const auto caption = [&](std::string_view text) { canvas.text({at.x + 44 * u, at.y + 5 * u}, text, style); };
@@ -87,9 +90,11 @@ void draw_legend(Canvas& canvas, const Place& place, Point2 at) {
         const std::array<Point2, 2> ends{{{at.x + 2 * u, at.y}, {at.x + 30 * u, at.y}}};
         canvas.stroke(ends, false, color, width * u);
     };
-    swatch(kSurface, 3.2);
-    caption("surface of the segmentation");
-    at.y += line;
+    if (has_surface) {
+        swatch(kSurface, 3.2);
+        caption("surface of the segmentation");
+        at.y += line;
+    }
     swatch(kDrawn, 2.4);
     caption("contour drawn in this slice");
     at.y += line;
@@ -97,7 +102,7 @@ void draw_legend(Canvas& canvas, const Place& place, Point2 at) {
     caption("contour of another plane crosses");
 }
 
-void draw_facts(Canvas& canvas, const Place& place, Point2 at, const std::vector<PictureFact>& facts) {
+void draw_facts(Canvas& canvas, const PanelPlace& place, Point2 at, const std::vector<PictureFact>& facts) {
     const double right = place.rect.right() - 18 * place.unit, line = 25 * place.unit;
     for (const PictureFact& fact : facts) {
         if (at.y > place.rect.bottom() - 10 * place.unit) return;
@@ -107,11 +112,11 @@ void draw_facts(Canvas& canvas, const Place& place, Point2 at, const std::vector
     }
 }
 
-void draw_table(Canvas& canvas, const Place& place, const std::vector<PictureFact>& facts) {
+void draw_table(Canvas& canvas, const PanelPlace& place, const std::vector<PictureFact>& facts, bool has_surface) {
     const double u = place.unit;
     const auto clip = canvas.clip(place.rect);
     canvas.fill(place.rect, kPanel);
-    draw_legend(canvas, place, {place.rect.x + 18 * u, place.rect.y + 28 * u});
+    draw_legend(canvas, place, {place.rect.x + 18 * u, place.rect.y + 28 * u}, has_surface);
     const double rule = place.rect.y + 104 * u;
     const std::array<Point2, 2> ends{{{place.rect.x + 18 * u, rule}, {place.rect.right() - 18 * u, rule}}};
     canvas.stroke(ends, false, kFrame, u);
@@ -187,8 +192,11 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
     canvas.fill({0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)}, kGround);
 
     const std::string& name = options.title.empty() ? contours.name : options.title;
-    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle(mesh, contours));
+    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle(mesh, contours, options.has_surface));
     picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, mesh, contours, work);
+    if (options.has_surface && mesh.triangles.empty())
+        canvas.text(layout.surface.center(), "empty: there is no surface",
+                    {.size_px = 24 * layout.unit, .color = kText, .align = Align::center, .halo = true});
 
     const std::array<Slice, 3> slices = choose_slices(mesh, contours, image);
     const Window window = options.window ? *options.window
@@ -197,7 +205,7 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
     const picture::SliceContent content{mesh, contours, image, window, common_pixel_mm(slices, layout.slices.front())};
     for (std::size_t i = 0; i < slices.size(); ++i)
         picture::draw_slice_panel(canvas, {layout.slices[i], layout.unit}, slices[i], content);
-    draw_table(canvas, {layout.table, layout.unit}, all_facts(mesh, contours, options));
+    draw_table(canvas, {layout.table, layout.unit}, all_facts(mesh, contours, options), options.has_surface);
     return canvas.image();
 }
 

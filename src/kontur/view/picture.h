@@ -28,6 +28,7 @@ struct PictureOptions {
     std::string title = {};               ///< empty: the contour set's name
     std::vector<PictureFact> facts = {};  ///< below the volume and the counts, which the picture gives by itself
     std::optional<Window> window = {};    ///< of the slices; unset: `suggest_window` of the object's surroundings
+    bool has_surface = true;              ///< false: the picture is of the contours alone, and the mesh is empty
 };
 
 /// One picture of a segmentation that is understood at once: the surface in 3D seen from the patient's front, left and

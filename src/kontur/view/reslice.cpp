@@ -41,16 +41,22 @@ double trilinear(const Sample* s, const Neighbours& i, const Neighbours& j, cons
     return a + k.weight * (along_j(k.upper) - a);
 }
 
+/// Places in an image, at equal steps of its index.
+struct IndexLine {
+    Vec3 start, step;
+};
+
 template <class Sample>
-void sample_row(const std::vector<Sample>& samples, const Index3& size, Vec3 index, const Vec3& step, float outside,
+void sample_row(const std::vector<Sample>& samples, const Index3& size, const IndexLine& line, float outside,
                 std::span<float> row) {
+    Vec3 index = line.start;
     for (float& pixel : row) {
         const bool inside = covers(size.i, index.x) && covers(size.j, index.y) && covers(size.k, index.z);
         pixel = !inside ? outside
                         : static_cast<float>(trilinear(samples.data(), neighbours(size.i, 1, index.x),
                                                        neighbours(size.j, size.i, index.y),
                                                        neighbours(size.k, size.i * size.j, index.z)));
-        index += step;
+        index += line.step;
     }
 }
 
@@ -90,7 +96,11 @@ std::vector<float> reslice(const Image& image, const Reslice& raster, float outs
         for (std::int64_t row = begin; row < end; ++row) {
             const Vec3 start = mm_to_index.apply(raster.plane.from_uv(0, static_cast<double>(row) * rows_mm(raster)));
             const std::span target(pixels.data() + static_cast<std::size_t>(row) * width, width);
-            std::visit([&](const auto& s) { sample_row(s, image.grid.size, start, step, outside, target); }, image.samples);
+            std::visit(
+                [&](const auto& s) {
+                    sample_row(s, image.grid.size, {start, step}, outside, target);
+                },
+                image.samples);
         }
     });
     return pixels;

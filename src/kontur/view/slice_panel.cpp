@@ -15,7 +15,7 @@ namespace {
 /// From mm to the panel's pixels.
 class SliceDrawing {
 public:
-    SliceDrawing(Canvas& canvas, const Place& place, const Slice& slice, const SliceContent& content)
+    SliceDrawing(Canvas& canvas, const PanelPlace& place, const Slice& slice, const SliceContent& content)
         : canvas_(canvas), place_(place), slice_(slice), content_(content) {}
 
     void draw() {
@@ -75,7 +75,7 @@ private:
     }
 
     Canvas& canvas_;
-    const Place& place_;
+    const PanelPlace& place_;
     const Slice& slice_;
     const SliceContent& content_;
 };
@@ -98,7 +98,7 @@ std::string slice_position(const Slice& slice) {
 
 }  // namespace
 
-void draw_slice_panel(Canvas& canvas, const Place& place, const Slice& slice, const SliceContent& content) {
+void draw_slice_panel(Canvas& canvas, const PanelPlace& place, const Slice& slice, const SliceContent& content) {
     const auto clip = canvas.clip(place.rect);
     canvas.fill(place.rect, content.image ? Color{0.03, 0.035, 0.045} : kPanel);
     SliceDrawing(canvas, place, slice, content).draw();

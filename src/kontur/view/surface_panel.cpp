@@ -71,7 +71,7 @@ private:
     double tolerance_mm_;
 };
 
-void draw_contours(Canvas& canvas, const Place& place, const ContourOverlay& overlay, const ContourSet& contours) {
+void draw_contours(Canvas& canvas, const PanelPlace& place, const ContourOverlay& overlay, const ContourSet& contours) {
     std::vector<ContourOverlay::Run> runs;
     for (const Contour& contour : contours.contours)
         for (auto& run : overlay.runs(contour)) {
@@ -88,7 +88,7 @@ void draw_contours(Canvas& canvas, const Place& place, const ContourOverlay& ove
 }
 
 /// A small cube with a letter on each of the three faces that the viewer sees.
-void draw_orientation_cube(Canvas& canvas, const Place& place, const Plane& screen) {
+void draw_orientation_cube(Canvas& canvas, const PanelPlace& place, const Plane& screen) {
     const double half = 21 * place.unit;
     const Point2 middle{place.rect.right() - 58 * place.unit, place.rect.bottom() - 62 * place.unit};
     const auto on_screen = [&](const Vec3& d) { return Point2{half * dot(screen.u, d), half * dot(screen.v, d)}; };
@@ -115,7 +115,7 @@ void draw_orientation_cube(Canvas& canvas, const Place& place, const Plane& scre
 
 }  // namespace
 
-void draw_surface_panel(Canvas& canvas, const Place& place, const TriangleMesh& mesh, const ContourSet& contours,
+void draw_surface_panel(Canvas& canvas, const PanelPlace& place, const TriangleMesh& mesh, const ContourSet& contours,
                         const Work& work) {
     const auto clip = canvas.clip(place.rect);
     canvas.fill_gradient(place.rect, {0.155, 0.185, 0.235}, {0.075, 0.090, 0.115});
@@ -126,9 +126,6 @@ void draw_surface_panel(Canvas& canvas, const Place& place, const TriangleMesh& 
     const ShadedSurface surface = shade(mesh, camera, {.color = {kMaterial.red, kMaterial.green, kMaterial.blue}}, work);
     canvas.blend(static_cast<int>(place.rect.x), static_cast<int>(place.rect.y), width, height, surface.argb);
     draw_contours(canvas, place, ContourOverlay(surface, camera, 0.008 * bounding_box(points).diagonal()), contours);
-    if (mesh.triangles.empty())
-        canvas.text(place.rect.center(), "empty: there is no surface",
-                    {.size_px = 24 * place.unit, .color = kText, .align = Align::center, .halo = true});
     draw_edge_letters(canvas, place, camera.plane);
     draw_orientation_cube(canvas, place, camera.plane);
     if (!points.empty()) draw_scale_bar(canvas, place, camera.pixel_mm);

@@ -2,6 +2,7 @@
 import type { Theme } from "./model/theme";
 import type { Outlines, ServerEvent, Session, ViewName } from "./net/protocol";
 import type { ConnectionState } from "./net/socket";
+import { BackToStart } from "./page/back";
 import { Controls } from "./page/controls";
 import { acceptDrops, guardClosing } from "./page/guards";
 import { Keepers } from "./page/keepers";
@@ -24,6 +25,7 @@ export class App {
   private readonly keepers: Keepers;
   private readonly stage: Stage;
   private readonly controls: Controls;
+  private readonly back = new BackToStart(() => this.controls.actions.leaveForStart());
 
   constructor(token: string, theme: Theme) {
     const session = () => this.session;
@@ -149,13 +151,14 @@ export class App {
     void this.stage.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.server.notices.show("warning", note);
     this.beginHints(session, page);
+    if (session.can_close && !this.keepers.windows.isSecond) this.back.start();
     document.body.dataset["ready"] = "true";
   }
 
   private beginCards(session: Session, page: SavedPage | null): void {
     const { status, saving } = this.server;
     const { identity, secondCard, toolbar } = this.controls;
-    status.start(session.project, session.read_only);
+    status.start(session.project, session.project_path, session.read_only);
     saving.tell();
     identity.start(session);
     secondCard.start(session);

@@ -10,7 +10,7 @@ import { build } from "esbuild";
 const [what = "unit", ...rest] = process.argv.slice(2);
 
 const browsers = {
-  chromium: [process.env.KONTUR_CHROMIUM ?? "/usr/bin/chromium"],
+  chromium: [process.env.KONTUR_CHROMIUM ?? "/usr/bin/chromium-headless-shell"],
   firefox: [process.env.KONTUR_FIREFOX ?? "/usr/bin/firefox-esr", "/usr/bin/Xvfb"],
 };
 const browser = process.env.KONTUR_BROWSER ?? "chromium";

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 constexpr int kNameAttempts = 1000;
+constexpr const char* kDescriptors = "/proc/self/fd";
 
 [[noreturn]] void fail_to_write(const fs::path& target, const std::string& reason) {
     throw Error(ErrorKind::io, "cannot write " + target.string() + ": " + reason);
@@ -37,10 +38,11 @@ fs::path temporary_name(const fs::path& target) {
     return target.parent_path() / (name + target.extension().string());
 }
 
+fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
+
 /// The rename itself reaches the disk only with its folder. Best effort: some file systems cannot do it.
 void sync_folder(const fs::path& target) {
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int descriptor = ::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;
     ::fsync(descriptor);
     ::close(descriptor);
@@ -63,19 +65,39 @@ fs::path link_destination(const fs::path& target) {
 
 AtomicFile::AtomicFile(const fs::path& target) : target_(link_destination(target)) {
     refuse_special_file(target_);
-    for (int attempt = 0; attempt < kNameAttempts && descriptor_ < 0; ++attempt) {
-        temporary_ = temporary_name(target_);
-        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ < 0 && errno != EEXIST) fail(errno);
-    }
-    if (descriptor_ < 0) fail(EEXIST);
+    // Without /proc such a file could never get a name.
+    if (::access(kDescriptors, X_OK) == 0)
+        descriptor_ = ::open(folder_of(target_).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+        take_name([&](const char* name) {
+            return descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        });
     struct stat existing {};
     if (::stat(target_.c_str(), &existing) == 0) ::fchmod(descriptor_, existing.st_mode & 07777);
 }
 
 AtomicFile::~AtomicFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!committed_) ::unlink(temporary_.c_str());
+    if (!committed_ && !temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::take_name(const std::function<int(const char*)>& make) {
+    for (int attempt = 0; attempt < kNameAttempts; ++attempt) {
+        const fs::path name = temporary_name(target_);
+        if (make(name.c_str()) >= 0) {
+            temporary_ = name;
+            return;
+        }
+        if (errno != EEXIST) fail(errno);
+    }
+    fail(EEXIST);
+}
+
+const fs::path& AtomicFile::temporary_path() {
+    const fs::path file = fs::path(kDescriptors) / std::to_string(descriptor_);
+    if (temporary_.empty())
+        take_name([&](const char* name) { return ::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW); });
+    return temporary_;
 }
 
 void AtomicFile::write(const void* bytes, std::size_t count) {
@@ -102,6 +124,7 @@ void AtomicFile::write_through(const char* bytes, std::size_t count) {
 void AtomicFile::commit() {
     flush();
     if (::fsync(descriptor_) != 0) fail(errno);
+    temporary_path();  // a link cannot replace a file that is there; a rename can
     // Network file systems report a full disk only here.
     if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);

@@ -222,8 +222,10 @@ std::filesystem::path path_beside(const std::filesystem::path& header, const std
     const std::string name = declared.substr(declared.starts_with("./") ? 2 : 0);
     if (name.empty()) throw Error(ErrorKind::corrupt_file, header.string() + ": it names no file for its voxels");
     if (name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
-        throw Error(ErrorKind::unsupported, header.string() + ": its voxels are in \"" + declared +
-                                                "\"; only a plain file name in the header's own folder is accepted");
+        throw Error(
+            ErrorKind::unsupported,
+            header.string() + ": its voxels are in \"" + declared +
+                "\"; only a plain file name in the header's own folder is accepted; put the file there and name it so");
     return header.parent_path() / name;
 }
 

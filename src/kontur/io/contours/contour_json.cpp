@@ -140,14 +140,14 @@ std::vector<Vec3> read_constraints(const json& document, const char* key) {
     return in_context(key, [&] { return read_points(array_member(document, key), read_frame(document)); });
 }
 
-std::vector<Plane> read_empty_planes(const json& document) {
+/// The planes under a key, in which nothing can be drawn.
+std::vector<Plane> read_bare_planes(const json& document, const char* key, const char* if_drawn) {
     std::vector<Plane> planes;
-    if (!document.contains("empty_planes")) return planes;
+    if (!document.contains(key)) return planes;
     const PatientFrame frame = read_frame(document);
-    in_context("empty_planes", [&] {
-        for_each_item(array_member(document, "empty_planes"), "plane", [&](const json& item) {
-            if (item.contains("contours") && !array_member(item, "contours").empty())
-                corrupt("has contours; nothing was drawn in an empty plane");
+    in_context(key, [&] {
+        for_each_item(array_member(document, key), "plane", [&](const json& item) {
+            if (item.contains("contours") && !array_member(item, "contours").empty()) corrupt(if_drawn);
             planes.push_back(read_plane(item, frame));
         });
     });
@@ -166,7 +166,7 @@ ContourSet read_set(const json& document) {
     set.interior = read_constraints(document, "interior");
     set.exterior = read_constraints(document, "exterior");
     set.surface = read_surface(document);
-    set.empty_planes = read_empty_planes(document);
+    set.empty_planes = read_bare_planes(document, "empty_planes", "has contours; nothing was drawn in an empty plane");
     return set;
 }
 
@@ -256,6 +256,13 @@ std::vector<Plane> read_planes_json(const std::filesystem::path& path) {
         std::vector<Plane> planes;
         for_each_plane(document, [&](const json&, const Plane& plane, PatientFrame) { planes.push_back(plane); });
         return planes;
+    });
+}
+
+std::vector<Plane> read_confirmed_planes_json(const std::filesystem::path& path) {
+    const json document = read_json_file(path);
+    return in_context(path.string(), [&] {
+        return read_bare_planes(document, "confirmed_planes", "has contours; a plane that was drawn in is corrected");
     });
 }
 

@@ -19,6 +19,9 @@ ContourSet read_contour_json(const std::filesystem::path& path);
 /// The planes of such a file, in its order, with or without contours.
 std::vector<Plane> read_planes_json(const std::filesystem::path& path);
 
+/// The planes under "confirmed_planes", which were looked at and in which an existing mask is right; most files have none.
+std::vector<Plane> read_confirmed_planes_json(const std::filesystem::path& path);
+
 /// Writes planes without contours, in the same format, whole or not at all. Throws as write_contour_json does.
 void write_planes_json(const std::filesystem::path& path, const std::vector<Plane>& planes, const std::string& name = {});
 

@@ -11,6 +11,7 @@
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/bytes/json_file.h"
 #include "kontur/io/geometry/patient_frame.h"
+#include "kontur/io/geometry/uniform_spline.h"
 
 namespace kontur {
 namespace {
@@ -22,6 +23,8 @@ constexpr std::string_view kSchema =
     "markups-schema-v1.0.3.json#";
 constexpr std::array<std::uint8_t, 3> kGivenToAll{255, 128, 128};  ///< colour of 3D Slicer's markups
 constexpr std::string_view kHole = "hole", kInside = "inside", kOutside = "outside";
+constexpr const char* kOwn = "kontur";     ///< the key of how a file was made
+constexpr double kSplineTolerance = 1e-4;  ///< of the line from the spline, in units of the curve's extent
 
 [[noreturn]] void refuse(ErrorKind kind, const std::string& message) { throw Error(kind, message); }
 
@@ -78,11 +81,21 @@ void check_planar(const std::vector<Vec3>& points, const Plane& plane, double to
     if (!(off_plane <= tolerance_mm))
         refuse(ErrorKind::invalid_input,
                fmt::format("is not planar: points lie up to {:.6g} mm off the plane fitted to it; the "
-                           "limit is {:g} mm",
+                           "limit is {:g} mm; draw each curve in one slice",
                            off_plane, tolerance_mm));
 }
 
-Contour read_curve(const json& markup, bool closed, double tolerance_mm) {
+/// In place of straight lines between the control points.
+void follow_spline(Contour& curve, const std::function<void(double)>& on_spline) {
+    const double tolerance_mm = kSplineTolerance * bounding_box(curve.points).diagonal();
+    UniformSpline spline = uniform_spline(curve.points, curve.closed, tolerance_mm);
+    if (!(spline.off_mm > 0)) return;
+    curve.points = std::move(spline.points);
+    for (Vec3& p : curve.points) p -= curve.plane.distance_to(p) * curve.plane.normal;
+    if (on_spline) on_spline(spline.off_mm);
+}
+
+Contour read_curve(const json& markup, bool closed, const ReadMarkupsOptions& options) {
     const std::vector<ControlPoint> controls = read_control_points(markup);
     Contour contour;
     contour.closed = closed;
@@ -97,8 +110,9 @@ Contour read_curve(const json& markup, bool closed, double tolerance_mm) {
         refuse(ErrorKind::invalid_input,
                fmt::format("has {} with a position; at least {} are needed", counted(points.size(), "point"), least));
     if (const std::optional<Plane> plane = fit_plane(points)) {
-        check_planar(points, *plane, tolerance_mm);
+        check_planar(points, *plane, options.plane_tolerance_mm);
         contour.plane = *plane;
+        if (options.curves == Curves::spline) follow_spline(contour, options.on_spline);
     } else if (closed) {
         refuse(ErrorKind::invalid_input, fmt::format("its {} points lie on one line", points.size()));
     } else {
@@ -142,10 +156,11 @@ bool is_empty_curve(const json& markup) {
 void append_markup(const json& markup, const ReadMarkupsOptions& options, ContourSet& set) {
     const std::string type = text_member(markup, "type", "");
     if (type == "Fiducial") append_points(markup, set);
-    else if (is_curve(type)) set.contours.push_back(read_curve(markup, type == "ClosedCurve", options.plane_tolerance_mm));
+    else if (is_curve(type)) set.contours.push_back(read_curve(markup, type == "ClosedCurve", options));
     else
         refuse(ErrorKind::unsupported,
-               "is a markup of type \"" + type + "\"; closed and open curves and point lists are supported");
+               "is a markup of type \"" + type +
+                   "\"; closed and open curves and point lists are supported; save the others in a file of their own");
 }
 
 /// In which 3D Slicer shows the markup, whose points are selected until someone chooses. The one that it gives to all
@@ -175,8 +190,9 @@ std::string common_name(const std::vector<std::string>& names) {
     return common.substr(0, last == std::string::npos ? 0 : last + 1);
 }
 
-ContourSet read_set(const json& document, const ReadMarkupsOptions& options) {
+ContourSet read_set(const json& document, ReadMarkupsOptions options) {
     const json& markups = array_member(document, "markups");
+    if (document.contains(kOwn)) options.curves = Curves::polygon;
     check_schema(document);
     ContourSet set;
     std::vector<std::string> names;
@@ -267,8 +283,8 @@ std::string to_document(const ContourSet& set, const Provenance& provenance) {
     }
     if (const auto points = single_points_of(set); !points.empty())
         markups.push_back(to_text("Fiducial", set.name.empty() ? "" : set.name + " points", display, points));
-    const std::string made = provenance.empty() ? "" : fmt::format(" \"kontur\": {},\n", to_json(provenance));
-    return fmt::format("{{\"@schema\": \"{}\",\n{} \"markups\": [{}]}}\n", kSchema, made, fmt::join(markups, ","));
+    return fmt::format("{{\"@schema\": \"{}\",\n \"{}\": {},\n \"markups\": [{}]}}\n", kSchema, kOwn, to_json(provenance),
+                       fmt::join(markups, ","));
 }
 
 }  // namespace

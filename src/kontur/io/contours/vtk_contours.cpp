@@ -23,14 +23,14 @@ using Position = std::array<double, 3>;
 
 Position position_of(const Vec3& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }
 
-struct Line {
+struct VtkLine {
     std::vector<Vec3> points;
     bool closed = false;
 };
 
 /// Closes a line that comes back to its start.
-Line as_line(std::vector<Vec3> points) {
-    Line line{std::move(points)};
+VtkLine as_line(std::vector<Vec3> points) {
+    VtkLine line{std::move(points)};
     line.closed = line.points.size() > 2 && position_of(line.points.front()) == position_of(line.points.back());
     if (line.closed) line.points.pop_back();
     return line;
@@ -44,8 +44,8 @@ public:
             for (const Vec3* end : {&lines_[n].front(), &lines_[n].back()}) ends_[position_of(*end)].push_back(n);
     }
 
-    std::vector<Line> join() {
-        std::vector<Line> joined;
+    std::vector<VtkLine> join() {
+        std::vector<VtkLine> joined;
         for (std::size_t n = 0; n < lines_.size(); ++n) {
             if (used_[n]) continue;
             std::vector<Vec3> chain = take(n);
@@ -98,15 +98,15 @@ std::vector<Vec3> points_of(const PolyData& data, std::span<const std::uint32_t>
     return points;
 }
 
-std::vector<Line> lines_of(const PolyData& data) {
-    std::vector<Line> closed;
+std::vector<VtkLine> lines_of(const PolyData& data) {
+    std::vector<VtkLine> closed;
     std::vector<std::vector<Vec3>> open;
     for (std::size_t n = 0; n < data.lines.size(); ++n) {
-        Line line = as_line(points_of(data, data.lines[n]));
+        VtkLine line = as_line(points_of(data, data.lines[n]));
         if (line.closed) closed.push_back(std::move(line));
         else if (line.points.size() > 1) open.push_back(std::move(line.points));
     }
-    std::vector<Line> lines = LineJoiner(std::move(open)).join();
+    std::vector<VtkLine> lines = LineJoiner(std::move(open)).join();
     lines.insert(lines.begin(), std::make_move_iterator(closed.begin()), std::make_move_iterator(closed.end()));
     return lines;
 }
@@ -119,23 +119,24 @@ void refuse_surface(const PolyData& data) {
             if (!edges.insert(std::minmax(corners[c], corners[(c + 1) % corners.size()])).second)
                 throw Error(ErrorKind::unsupported,
                             fmt::format("it holds a surface of {} polygons and no lines; contours are lines, or polygons "
-                                        "that share no edges",
+                                        "that share no edges; kontur convert makes a mask of a closed surface, and kontur "
+                                        "trace contours of it",
                                         data.polygons.size()));
     }
 }
 
-std::vector<Line> polygons_of(const PolyData& data) {
+std::vector<VtkLine> polygons_of(const PolyData& data) {
     refuse_surface(data);
-    std::vector<Line> lines;
+    std::vector<VtkLine> lines;
     for (std::size_t n = 0; n < data.polygons.size(); ++n) {
-        Line line{points_of(data, data.polygons[n]), true};
+        VtkLine line{points_of(data, data.polygons[n]), true};
         if (line.points.size() > 1 && line.points.front() == line.points.back()) line.points.pop_back();
         lines.push_back(std::move(line));
     }
     return lines;
 }
 
-Contour to_contour(Line line) {
+Contour to_contour(VtkLine line) {
     const std::size_t least = line.closed ? 3 : 2;
     if (line.points.size() < least)
         throw Error(ErrorKind::invalid_input,
@@ -169,9 +170,9 @@ VtkContours contours_of(const PolyData& data, double tolerance_mm) {
     VtkContours found;
     if (data.lines.size() == 0 && data.polygons.size() == 0 && data.strips.size() == 0)
         throw Error(ErrorKind::invalid_input, "it has no lines");
-    std::vector<Line> lines = data.lines.size() > 0 ? lines_of(data) : polygons_of(data);
+    std::vector<VtkLine> lines = data.lines.size() > 0 ? lines_of(data) : polygons_of(data);
     std::vector<Contour>& contours = found.contours.contours;
-    for_each_contour(lines, [&](Line& line) { contours.push_back(to_contour(std::move(line))); });
+    for_each_contour(lines, [&](VtkLine& line) { contours.push_back(to_contour(std::move(line))); });
     assign_planes(contours, tolerance_mm);
     for_each_contour(contours, [&](const Contour& contour) { check_planar(contour, tolerance_mm); });
     if (!data.names_frame)

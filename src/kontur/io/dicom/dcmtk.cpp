@@ -209,8 +209,8 @@ void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKe
                                        : load_unknown(file, path, meta, stop);
     if (loaded.good()) return;
     if (!known)
-        throw Error(ErrorKind::unsupported, fmt::format("{}: the transfer syntax '{}' is not supported", path.string(),
-                                                        name_of_syntax(meta.syntax)));
+        throw Error(ErrorKind::unsupported, fmt::format("{}: the transfer syntax '{}' is not supported; {}", path.string(),
+                                                        name_of_syntax(meta.syntax), kUncompressed));
     throw Error(ErrorKind::corrupt_file, path.string() + ": not a complete DICOM file (" + loaded.text() + ")");
 }
 

@@ -33,6 +33,9 @@ struct Syntax {
 };
 Syntax syntax_of(DcmFileFormat& file);
 
+/// What leads on from a compression that is not read.
+inline constexpr const char* kUncompressed = "export the images uncompressed first";
+
 /// All values of a text element, trimmed, as valid UTF-8; "" when absent. Here and below, an element of unknown type (VR UN)
 /// is what DICOM's dictionary says it is. Bytes that are no characters of the declared set,
 /// or of any where none is declared, are taken for UTF-8, else for Latin-1.

@@ -78,8 +78,7 @@ void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code) {
     put(entry, DCM_CodeMeaning, code.meaning);
 }
 
-void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
-                    const std::string& series_description) {
+void start_document(DcmItem& document, const DicomSeries& images, const DocumentKind& kind) {
     DcmFileFormat file;
     load(file, images.files.front(), DCM_PixelData);
     DcmItem& source = *file.getDataset();
@@ -91,16 +90,17 @@ void start_document(DcmItem& document, const DicomSeries& images, const char* cl
         images.frame_of_reference_uid.empty() ? new_uid() : images.frame_of_reference_uid);
     put(document, DCM_PositionReferenceIndicator, text(source, DCM_PositionReferenceIndicator));
 
-    put(document, DCM_SOPClassUID, class_uid);
+    put(document, DCM_SOPClassUID, kind.class_uid);
     put(document, DCM_SOPInstanceUID, new_uid());
     put(document, DCM_SeriesInstanceUID, new_uid());
-    put(document, DCM_Modality, modality);
-    put(document, DCM_SeriesDescription, one_value(series_description, 64));
+    put(document, DCM_Modality, kind.modality);
+    put(document, DCM_SeriesDescription, one_value(kind.series_description, 64));
     put(document, DCM_OperatorsName, "");
     put(document, DCM_InstanceNumber, 1);
     put_now(document, DCM_InstanceCreationDate, DCM_InstanceCreationTime);
     put_now(document, DCM_SeriesDate, DCM_SeriesTime);
-    put(document, DCM_SeriesNumber, std::max<std::int64_t>(1, std::stoll(text(document, DCM_SeriesTime))));
+    const std::int64_t time_of_day = std::max<std::int64_t>(1, std::stoll(text(document, DCM_SeriesTime)));
+    put(document, DCM_SeriesNumber, kind.series_number > 0 ? kind.series_number : time_of_day);
     put(document, DCM_Manufacturer, "kontur");
     put(document, DCM_ManufacturerModelName, "kontur");
     put(document, DCM_DeviceSerialNumber, "0");

@@ -33,11 +33,18 @@ struct Code {
 };
 void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 
+/// What kind of object a document is, and the series that it begins.
+struct DocumentKind {
+    const char* class_uid;
+    const char* modality;
+    std::string series_description;
+    std::int64_t series_number;  ///< 0: the time of day, hhmmss
+};
+
 /// A new object of a series of its own, in UTF-8, that belongs to the patient, study and frame of reference of `images`,
-/// whose first file is read for it; names kontur as its maker. Its Series Number is the time of day, hhmmss. The frame of
-/// reference is a new one where the images name none.
-void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
-                    const std::string& series_description);
+/// whose first file is read for it; names kontur as its maker. The frame of reference is a new one where the images name
+/// none.
+void start_document(DcmItem& document, const DicomSeries& images, const DocumentKind& kind);
 
 /// "kontur contours 2026-11-28: Liver, Spleen": what a list of results tells them apart by, in at most 64
 /// bytes. A given description that is not the default kind stays as it is.

@@ -37,7 +37,8 @@ public:
     void add(Listing listing, int depth = 0) {
         if (depth > kDeepest)
             throw Error(ErrorKind::too_large,
-                        fmt::format("{}: its folders lie in each other more than {} deep", folder_.string(), kDeepest));
+                        fmt::format("{}: its folders lie in each other more than {} deep; name the folder of the images",
+                                    folder_.string(), kDeepest));
         std::move(listing.files.begin(), listing.files.end(), std::back_inserter(result_.files));
         if (result_.files.size() > kMostFiles)
             throw Error(ErrorKind::too_large, fmt::format("{} holds more than {} files; name the folder of the images",

@@ -60,9 +60,9 @@ double lower_median(std::vector<double> values) {
 void refuse_duplicates(const DicomStack& stack, const std::vector<double>& positions) {
     for (std::size_t k = 1; k < positions.size(); ++k)
         if (positions[k] - positions[k - 1] <= kSamePositionMm)
-            refuse(fmt::format("two slices lie at {}, and nothing tells them apart: {} and {}",
-                               PositionNames(stack).at(stack.slices[k]), name_of(stack.slices[k - 1]),
-                               name_of(stack.slices[k])));
+            refuse(fmt::format(
+                "two slices lie at {}, and nothing tells them apart: {} and {}; move one of them out of the folder",
+                PositionNames(stack).at(stack.slices[k]), name_of(stack.slices[k - 1]), name_of(stack.slices[k])));
 }
 
 [[noreturn]] void refuse_gaps(const DicomStack& stack, const std::vector<double>& steps, double usual) {
@@ -78,7 +78,8 @@ void refuse_duplicates(const DicomStack& stack, const std::vector<double>& posit
     if (count > kGapsNamed) gaps.resize(kGapsNamed);
     refuse(fmt::format("slices are missing between {}{}: {:.6g} of them at the usual spacing of {:.6g} mm{}",
                        names.unit_text(fmt::format("{}", fmt::join(gaps, ", "))),
-                       count > kGapsNamed ? fmt::format(" and in {} more places", count - kGapsNamed) : "", missing, usual, kWayOut));
+                       count > kGapsNamed ? fmt::format(" and in {} more places", count - kGapsNamed) : "", missing, usual,
+                       kWayOut));
 }
 
 /// The unit in the last place to which a coordinate was written, such as 0.1 of 12.3; 0: none that rounds visibly.
@@ -125,9 +126,10 @@ void check_spacing(const DicomStack& stack, const std::vector<double>& positions
     for (std::size_t k = 0; k < positions.size(); ++k)
         worst = std::max(worst, std::abs(positions[k] - static_cast<double>(k) * mean));
     if (worst > exact && worst <= tolerance)
-        notes.push_back(fmt::format("the slices' positions are rounded: they lie up to {:.3g} mm off a regular grid with "
-                                    "steps of {:.6g} mm, on which they are taken to lie",
-                                    worst, mean));
+        notes.push_back(
+            fmt::format("the slices' positions are rounded: they lie up to {:.3g} mm off a regular grid with "
+                        "steps of {:.6g} mm, on which they are taken to lie",
+                        worst, mean));
     if (worst <= tolerance) return;
     const std::vector<double> steps = steps_between(positions);
     const double usual = lower_median(steps);
@@ -147,8 +149,8 @@ void check_shift(const DicomStack& stack, const Vec3& step) {
     for (std::size_t k = 0; k < stack.slices.size(); ++k) {
         const double off = distance(stack.slices[k].placement.position, first.position + static_cast<double>(k) * step);
         if (off > tolerance)
-            refuse(fmt::format("the slice at {} is shifted by {:.3g} mm against its neighbours; the limit is {:.3g} mm",
-                               PositionNames(stack).at(stack.slices[k]), off, tolerance));
+            refuse(fmt::format("the slice at {} is shifted by {:.3g} mm against its neighbours; the limit is {:.3g} mm{}",
+                               PositionNames(stack).at(stack.slices[k]), off, tolerance, kWayOut));
     }
 }
 
@@ -164,7 +166,8 @@ std::string tilt_note(const Vec3& step, const Vec3& normal, std::size_t slices) 
 
 Vec3 single_slice_step(const DicomHeader& slice, std::vector<std::string>& notes) {
     if (!slice.thickness_mm || !(*slice.thickness_mm > 0))
-        refuse("the series has a single slice without a SliceThickness (0018,0050), so its depth is unknown");
+        refuse(fmt::format("the series has a single slice without a SliceThickness (0018,0050), so its depth is unknown{}",
+                           kWayOut));
     notes.push_back(fmt::format("a single slice; its depth of {:.6g} mm is its SliceThickness", *slice.thickness_mm));
     return *slice.thickness_mm * slice.placement.normal();
 }

@@ -152,7 +152,8 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmFileFormat& 
     header.instance_number = integer_if_any(dataset, DCM_InstanceNumber);
     if (dataset.tagExists(DCM_FloatPixelData) || dataset.tagExists(DCM_DoubleFloatPixelData))
         throw Error(ErrorKind::unsupported,
-                    "its pixels are floating-point numbers, as of a parametric map, which are not read");
+                    "its pixels are floating-point numbers, as of a parametric map, which are not read; dcmqi's "
+                    "paramap2itkimage converts them");
     check_pixels_fit(header, DcmXfer(dataset.getOriginalXfer()), dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
     return header;
 }

@@ -240,14 +240,20 @@ private:
 void check_pixel_formats(const DicomStack& stack) {
     for (const DicomHeader& slice : stack.slices) {
         const auto refuse = [&](const std::string& what) {
-            throw Error(ErrorKind::unsupported, fmt::format("{}: {} is not supported", slice.path.string(), what));
+            throw Error(ErrorKind::unsupported, fmt::format("{}: {}", slice.path.string(), what));
         };
-        if (!slice.decodable) refuse(fmt::format("the compression '{}'", slice.transfer_syntax));
+        if (!slice.decodable)
+            refuse(fmt::format("the compression '{}' is not supported; {}", slice.transfer_syntax, dcmtk::kUncompressed));
         const std::string& meaning = slice.photometric_interpretation;
         if (meaning != "MONOCHROME2" && meaning != "MONOCHROME1")
-            refuse(fmt::format("the photometric interpretation '{}' (only MONOCHROME2 and MONOCHROME1 are)", meaning));
-        if (slice.has_lookup_table) refuse("a modality lookup table");
-        if (slice.bits_stored < 1 || slice.bits_stored > 32) refuse(fmt::format("a depth of {} bits", slice.bits_stored));
+            refuse(
+                fmt::format("the photometric interpretation '{}' is not supported (only MONOCHROME2 and MONOCHROME1 are); "
+                            "export the images as grey values first",
+                            meaning));
+        if (slice.has_lookup_table)
+            refuse("a modality lookup table is not supported; export the images with a rescale slope first");
+        if (slice.bits_stored < 1 || slice.bits_stored > 32)
+            refuse(fmt::format("a depth of {} bits is not supported; 1 to 32 are", slice.bits_stored));
     }
 }
 

@@ -15,11 +15,11 @@
 #include "kontur/io/dicom/dicom_code.h"
 #include "kontur/io/dicom/dicom_frames.h"
 #include "kontur/io/dicom/dicom_seg_pixels.h"
+#include "kontur/io/dicom/dicom_stack.h"
 
 namespace kontur {
 namespace {
 
-constexpr double kSamePositionMm = 1e-3;
 constexpr double kOffLatticeMm = 0.1;
 
 Error corrupt(const std::string& message) { return Error(ErrorKind::corrupt_file, message); }
@@ -223,7 +223,11 @@ private:
                                 *spacing_, least));
             return *spacing_;
         }
-        if (!fits(least)) refuse(fmt::format("its frames lie on no regular lattice of slices {:.6g} mm apart", least));
+        if (!fits(least))
+            refuse(fmt::format(
+                "its frames lie on no regular lattice of slices {:.6g} mm apart; 3D Slicer exports it again on the "
+                "grid of its images",
+                least));
         return least;
     }
 

@@ -89,8 +89,21 @@ struct DicomAlgorithm {
 
 struct WriteDicomSegOptions {
     std::string series_description = "kontur segmentation";  ///< this default is followed by date and names
+    std::int64_t series_number = 0;                         ///< 0: the time of day, hhmmss
     DicomAlgorithm algorithm{};
     Provenance provenance{};  ///< how the file was made: the description of kontur's contribution (equipment)
+};
+
+/// A label map, and what its values are.
+struct LabelledSegments {
+    const Image& labels;
+    const std::vector<DicomSegment>& segments;
+};
+
+/// Segments that may overlap: one mask for each, in the order given, whatever their numbers are.
+struct MaskedSegments {
+    const std::vector<Mask>& masks;
+    const std::vector<DicomSegment>& segments;
 };
 
 /// Writes a binary DICOM segmentation (Explicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,
@@ -102,14 +115,13 @@ struct WriteDicomSegOptions {
 /// GiB; Error(io). Names have room for 64 characters, none of them a backslash; two that would become equal get a number.
 /// Returns what the user should know, one sentence each: names, descriptions and codes that were changed. Source: DICOM
 /// PS3.3 A.51 and C.8.20.
-std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const Image& labels,
-                                         const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                                         const WriteDicomSegOptions& options = {}, const Work& work = {});
+std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const LabelledSegments& content,
+                                         const DicomSeries& images, const WriteDicomSegOptions& options = {},
+                                         const Work& work = {});
 
-/// The same for segments that may overlap: one mask for each, in the order given, whatever their numbers are. Throws
-/// Error(invalid_input) also when there are not as many masks as segments.
-std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
-                                               const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                                               const WriteDicomSegOptions& options = {}, const Work& work = {});
+/// Throws Error(invalid_input) also when there are not as many masks as segments.
+std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const MaskedSegments& content,
+                                               const DicomSeries& images, const WriteDicomSegOptions& options = {},
+                                               const Work& work = {});
 
 }  // namespace kontur

@@ -77,7 +77,8 @@ SegPixels::SegPixels(DcmFileFormat& file, const std::filesystem::path& path, con
 
 void SegPixels::decode(DcmDataset& dataset, const dcmtk::Syntax& syntax) const {
     if (!syntax.known || !is_decoded_by_dcmtk(dataset.getOriginalXfer()) || layout_.bits == 1)
-        throw Error(ErrorKind::unsupported, fmt::format("the compression '{}' of its pixels is not supported", syntax.name));
+        throw Error(ErrorKind::unsupported, fmt::format("the compression '{}' of its pixels is not supported; {}",
+                                                        syntax.name, dcmtk::kUncompressed));
     if (const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr); decoded.bad())
         throw corrupt(fmt::format("its compressed pixels cannot be decoded ({})", decoded.text()));
 }

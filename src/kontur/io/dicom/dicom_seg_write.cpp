@@ -311,8 +311,12 @@ Grid grid_of(const std::vector<DicomHeader>& slices) {
     return grid;
 }
 
-/// `voxels_of(s)`: of the images, whether each lies in segment s.
-using VoxelsOf = std::function<std::vector<bool>(std::size_t)>;
+/// Segments on the voxels of the images.
+struct SegmentVoxels {
+    const std::vector<DicomSegment>& segments;
+    const std::vector<DicomHeader>& slices;                   ///< of the images
+    std::function<std::vector<bool>(std::size_t)> voxels_of;  ///< for each voxel whether it lies in segment s
+};
 
 std::vector<std::string> names_of(const std::vector<DicomSegment>& segments) {
     std::vector<std::string> names;
@@ -320,9 +324,9 @@ std::vector<std::string> names_of(const std::vector<DicomSegment>& segments) {
     return names;
 }
 
-std::vector<std::string> write_segments(const std::filesystem::path& path, const std::vector<DicomSegment>& segments,
-                                        const std::vector<DicomHeader>& slices, const DicomSeries& images,
-                                        const WriteDicomSegOptions& options, const Work& work, const VoxelsOf& voxels_of) {
+std::vector<std::string> write_segments(const std::filesystem::path& path, const SegmentVoxels& content,
+                                        const DicomSeries& images, const WriteDicomSegOptions& options, const Work& work) {
+    const auto& [segments, slices, voxels_of] = content;
     std::vector<std::string> notes;
     const std::vector<std::string> names = dcmtk::stored_names(names_of(segments), "segment", notes);
     const Grid grid = grid_of(slices);
@@ -331,7 +335,7 @@ std::vector<std::string> write_segments(const std::filesystem::path& path, const
     DcmItem& document = *file.getDataset();
     const std::string description =
         dcmtk::description_with_names(options.series_description, WriteDicomSegOptions{}.series_description, names);
-    dcmtk::start_document(document, images, UID_SegmentationStorage, "SEG", description);
+    dcmtk::start_document(document, images, {UID_SegmentationStorage, "SEG", description, options.series_number});
     dcmtk::put_contribution(document, options.provenance);
     SegWriter writer(document, slices);
     writer.put_header(segments.size());
@@ -361,9 +365,9 @@ std::vector<std::string> write_segments(const std::filesystem::path& path, const
 
 }  // namespace
 
-std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const Image& labels,
-                                         const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                                         const WriteDicomSegOptions& options, const Work& work) {
+std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const LabelledSegments& content,
+                                         const DicomSeries& images, const WriteDicomSegOptions& options, const Work& work) {
+    const auto& [labels, segments] = content;
     dcmtk::set_up();
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const Grid grid = grid_of(slices);
@@ -371,26 +375,29 @@ std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, cons
     check_segments(labels, segments);
     const auto values =
         Lookup(labels.grid, grid).values<std::uint16_t>([&](std::size_t offset) { return sample(labels, offset); });
-    return write_segments(path, segments, slices, images, options, work, [&](std::size_t s) {
+    const auto voxels_of = [&values, &segments = content.segments](std::size_t s) {
         std::vector<bool> inside(values.size());
         std::transform(values.begin(), values.end(), inside.begin(),
                        [number = segments[s].number](std::uint16_t value) { return value == number; });
         return inside;
-    });
+    };
+    return write_segments(path, {segments, slices, voxels_of}, images, options, work);
 }
 
-std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
-                                               const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                                               const WriteDicomSegOptions& options, const Work& work) {
+std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const MaskedSegments& content,
+                                               const DicomSeries& images, const WriteDicomSegOptions& options,
+                                               const Work& work) {
+    const auto& [masks, segments] = content;
     dcmtk::set_up();
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const Grid grid = grid_of(slices);
     check_masks(masks, segments);
     for (const Mask& mask : masks) check_mask(mask);
-    return write_segments(path, segments, slices, images, options, work, [&](std::size_t s) {
+    const auto voxels_of = [&grid, &masks = content.masks](std::size_t s) {
         const Mask& mask = masks[s];
         return Lookup(mask.grid, grid).values<bool>([&](std::size_t offset) { return mask.values[offset] != 0; });
-    });
+    };
+    return write_segments(path, {segments, slices, voxels_of}, images, options, work);
 }
 
 }  // namespace kontur

@@ -92,9 +92,11 @@ DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& opti
         keep(stacks, "series " + *options.series_uid,
              [&](const DicomStack& stack) { return series_of(stack) == *options.series_uid; });
     if (series_of(stacks.front()) != series_of(stacks.back()))
-        throw Error(ErrorKind::invalid_input, "the folder holds several series; name one: " + listed(stacks));
+        throw Error(ErrorKind::invalid_input,
+                    "the folder holds several series; choose one with the option series_uid: " + listed(stacks));
     if (stacks.size() > 1 && !options.volume)
-        throw Error(ErrorKind::invalid_input, "the series holds several volumes; name one: " + listed(stacks));
+        throw Error(ErrorKind::invalid_input,
+                    "the series holds several volumes; choose one with the option volume: " + listed(stacks));
     const int volume = options.volume.value_or(1);
     if (volume < 1 || static_cast<std::size_t>(volume) > stacks.size())
         throw Error(ErrorKind::invalid_input, fmt::format("there is no volume {}; there are: {}", volume, listed(stacks)));
@@ -147,8 +149,9 @@ void refuse_two_patients(const std::string& series, const std::vector<DicomStack
             if (!first) first = &slice;
             if (slice.patient_id != first->patient_id)
                 throw Error(ErrorKind::invalid_input,
-                            fmt::format("the series {} has images of two patients: {} names '{}', {} names '{}'", series,
-                                        name_of(*first), first->patient_id, name_of(slice), slice.patient_id));
+                            fmt::format("the series {} has images of two patients: {} names '{}', {} names '{}'; give each "
+                                        "patient a folder",
+                                        series, name_of(*first), first->patient_id, name_of(slice), slice.patient_id));
         }
 }
 

@@ -13,7 +13,7 @@ inline constexpr const char* kSuvUnit = "SUV (g/ml)";
 /// How a PET image's activity concentration becomes the standardized uptake value by body weight (g/ml).
 struct SuvScale {
     double suv_per_bqml = 0;  ///< 0 where it cannot be told
-    std::string told;         ///< one sentence: from what it follows, or which attribute keeps it from being told
+    std::string sentence;     ///< one sentence: from what it follows, or which attribute keeps it from being told
 };
 
 /// Of a DICOM file of a PET image in Bq/ml that is corrected for decay and attenuation; nullopt for any other. The dose is

@@ -58,6 +58,7 @@ enum class HoleEncoding {
 struct WriteRtstructOptions {
     HoleEncoding holes = HoleEncoding::keyhole;
     std::string series_description = "kontur contours";  ///< this default is followed by date and names
+    std::int64_t series_number = 0;                      ///< 0: the time of day, hhmmss
     Provenance provenance{};  ///< how the contours were made: the description of kontur's contribution (equipment)
 };
 

@@ -246,7 +246,7 @@ std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const
     DcmItem& document = *file.getDataset();
     const std::string description =
         dcmtk::description_with_names(options.series_description, WriteRtstructOptions{}.series_description, names);
-    dcmtk::start_document(document, images, UID_RTStructureSetStorage, "RTSTRUCT", description);
+    dcmtk::start_document(document, images, {UID_RTStructureSetStorage, "RTSTRUCT", description, options.series_number});
     put(document, DCM_StructureSetLabel,
         dcmtk::noted_value(set.label.empty() ? "kontur" : set.label, kMostLabel, "the structure set's label", notes));
     put(document, DCM_StructureSetDate, dcmtk::text(document, DCM_InstanceCreationDate));

@@ -49,7 +49,8 @@ VoxelType voxel_type(const Header& header, const fs::path& path) {
         case 65:
             return VoxelType::float64;
         default:
-            fail(ErrorKind::unsupported, path, fmt::format("its samples are of type {}, which is not read", type));
+            fail(ErrorKind::unsupported, path,
+                 fmt::format("its samples are of type {}, which is not read; ITK-SNAP saves it as NIfTI", type));
     }
 }
 
@@ -58,7 +59,8 @@ void refuse_rescaling(const Header& header, const fs::path& path) {
     const double offset = load<float>(&header[kOffsetAt], kBigEndian), slope = load<float>(&header[kSlopeAt], kBigEndian);
     if (offset != 0 || (slope != 0 && slope != 1))
         fail(ErrorKind::unsupported, path,
-             fmt::format("its samples are to be rescaled by {:g} and {:g}, which is not read", slope, offset));
+             fmt::format("its samples are to be rescaled by {:g} and {:g}, which is not read; ITK-SNAP saves it as NIfTI",
+                         slope, offset));
 }
 
 Grid grid_of(const Header& header, const fs::path& path) {

@@ -115,8 +115,10 @@ void refuse_intensity_function(const TextHeader& header) {
     for (const auto& [key, neutral] :
          {std::pair{"ElementToIntensityFunctionSlope", 1.0}, {"ElementToIntensityFunctionOffset", 0.0}})
         if (header.has(key) && header.numbers(key, 1)[0] != neutral)
-            header.refuse(ErrorKind::unsupported,
-                          fmt::format("its {} is {}; rescaled samples are not read", key, header.text(key)));
+            header.refuse(
+                ErrorKind::unsupported,
+                fmt::format("its {} is {}; rescaled samples are not read; save it with the values that they mean first", key,
+                            header.text(key)));
 }
 
 std::int64_t component_count(const TextHeader& header, const std::vector<std::int64_t>& sizes, bool& interleaved) {
@@ -126,7 +128,8 @@ std::int64_t component_count(const TextHeader& header, const std::vector<std::in
     if (channels < 1 || frames < 1)
         header.refuse(ErrorKind::corrupt_file, fmt::format("it declares {} channels and {} frames", channels, frames));
     if (channels > 1 && frames > 1)
-        header.refuse(ErrorKind::unsupported, fmt::format("it has {} channels in each of {} frames", channels, frames));
+        header.refuse(ErrorKind::unsupported,
+                      fmt::format("it has {} channels in each of {} frames; save a single channel first", channels, frames));
     interleaved = channels > 1;
     return std::max(channels, frames);
 }
@@ -137,7 +140,9 @@ bool is_list(const std::string& name) { return name.starts_with("LIST") || name.
 InputFile data_file(InputFile&& header_file, const TextHeader& header) {
     const std::string name = header.text("ElementDataFile");
     if (is_local(name)) return std::move(header_file);
-    if (is_list(name)) header.refuse(ErrorKind::unsupported, "its voxels are in several files, which is not read");
+    if (is_list(name))
+        header.refuse(ErrorKind::unsupported,
+                      "its voxels are in several files, which is not read; save it as one first, with 3D Slicer say");
     // What is left of "LOCAL" in a file that was cut off is a name, too.
     std::error_code ignored;
     if (const fs::path voxels = path_beside(header.path(), name);

@@ -19,6 +19,7 @@
 #include "kontur/io/bytes/text_header.h"
 #include "kontur/io/geometry/affine_frame.h"
 #include "kontur/io/images/image_files.h"
+#include "kontur/io/images/nifti_extensions.h"
 #include "kontur/io/images/nifti_header.h"
 #include "kontur/io/images/transform_needed.h"
 #include "kontur/io/images/voxel_stream.h"
@@ -88,14 +89,14 @@ VoxelType voxel_type(const NiftiHeader& header, const fs::path& path) {
         case 32:
         case 1792:
         case 2048:
-            fail_unsupported(path, "its samples are complex numbers; only real ones are read");
+            fail_unsupported(path, "its samples are complex numbers; only real ones are read, such as their magnitude");
         case 128:
         case 2304:
-            fail_unsupported(path, "its samples are colours; only scalars are read");
+            fail_unsupported(path, "its samples are colours; only scalars are read, such as one channel");
         case 1:
-            fail_unsupported(path, "its samples are single bits, which are not read");
+            fail_unsupported(path, "its samples are single bits, which are not read; bytes are");
         case 1536:
-            fail_unsupported(path, "its samples are 128-bit floats, which are not read");
+            fail_unsupported(path, "its samples are 128-bit floats, which are not read; 64-bit ones are");
         default:
             fail_corrupt(path, "its datatype " + std::to_string(header.datatype) + " is not defined");
     }
@@ -113,8 +114,9 @@ std::int64_t axis_size(const NiftiHeader& header, std::size_t axis, const fs::pa
 std::int64_t frame_count(const NiftiHeader& header, const fs::path& path) {
     for (std::size_t axis = 5; axis <= 7; ++axis)
         if (const std::int64_t size = axis_size(header, axis, path); size != 1)
-            fail_unsupported(path, "it has " + std::to_string(size) + " values along axis " + std::to_string(axis) +
-                                       "; only 3 axes of space and one of frames are read");
+            fail_unsupported(path,
+                             "it has " + std::to_string(size) + " values along axis " + std::to_string(axis) +
+                                 "; only 3 axes of space and one of frames are read, so save one of them as an image first");
     return axis_size(header, 4, path);
 }
 
@@ -270,18 +272,14 @@ NiftiHeader header_for(const Grid& grid) {
     return header;
 }
 
-/// A header extension with one "name: value" line for each, empty without any. Its size is a multiple of 16.
-std::string comment_extension(const Provenance& provenance) {
-    if (provenance.empty()) return {};
-    constexpr std::uint32_t kCommentCode = 6;
-    std::string text = "kontur\n";
-    for (const auto& [name, value] : provenance) text += fmt::format("{}: {}\n", name, value);
-    const auto size = static_cast<std::uint32_t>((8 + text.size() + 15) / 16 * 16);
-    text.resize(size - 8, '\0');
-    std::string extension;
-    for (const std::uint32_t number : {size, kCommentCode})
-        for (int shift = 0; shift < 32; shift += 8) extension += static_cast<char>(number >> shift & 255);
-    return extension + text;
+/// The table of labels first: TotalSegmentator reads the first extension alone.
+std::string extensions_of(const ImageView& image) {
+    std::string bytes;
+    if (!image.labels.empty()) bytes += to_bytes(label_table(image.labels));
+    if (image.provenance.empty()) return bytes;
+    NiftiExtension comment{kNiftiCommentCode, "kontur\n"};
+    for (const auto& [name, value] : image.provenance) comment.content += fmt::format("{}: {}\n", name, value);
+    return bytes + to_bytes(comment);
 }
 
 }  // namespace
@@ -301,11 +299,9 @@ void write_nifti(const fs::path& path, const ImageView& image) {
             header.bits_per_voxel = 8 * sizeof(Value);
         },
         image.samples);
-    const std::string extension = comment_extension(image.provenance);
-    if (!extension.empty()) {
-        header.vox_offset += static_cast<double>(extension.size());
-        header.description = "kontur " + short_text(image.provenance, kMaxDescriptionBytes);
-    }
+    const std::string extension = extensions_of(image);
+    header.vox_offset += static_cast<double>(extension.size());
+    if (!image.provenance.empty()) header.description = "kontur " + short_text(image.provenance, kMaxDescriptionBytes);
     auto bytes = format_nifti_header(header);
     if (!extension.empty()) bytes[nifti_header_bytes(header.version)] = 1;
     bytes.insert(bytes.end(), extension.begin(), extension.end());

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
+#include "kontur/base/counted.h"
+#include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/bytes/deflate.h"
@@ -30,7 +33,9 @@ bool is_list(const std::string& name) { return name.starts_with("LIST") || name.
 InputFile data_file(InputFile&& header_file, const TextHeader& fields) {
     const auto name = fields.find("data file");
     if (!name) return std::move(header_file);
-    if (is_list(*name)) fields.refuse(ErrorKind::unsupported, "its voxels are in several files, which is not read");
+    if (is_list(*name))
+        fields.refuse(ErrorKind::unsupported,
+                      "its voxels are in several files, which is not read; save it as one first, with 3D Slicer say");
     return open_beside(fields.path(), *name);
 }
 
@@ -181,14 +186,32 @@ std::vector<NrrdSegment> read_nrrd_segments(const fs::path& path) {
     return segments;
 }
 
-std::optional<std::int64_t> layer_of(std::span<const NrrdSegment> segments, std::int64_t label) {
-    std::optional<std::int64_t> layer;
-    for (const NrrdSegment& segment : segments) {
-        if (segment.label_value != label) continue;
-        if (layer) return std::nullopt;
-        layer = segment.layer;
-    }
-    return layer;
+std::vector<std::int64_t> segment_numbers(std::span<const NrrdSegment> segments) {
+    std::vector<std::int64_t> numbers;
+    for (const NrrdSegment& segment : segments) numbers.push_back(segment.label_value);
+    std::vector<std::int64_t> sorted = numbers;
+    std::ranges::sort(sorted);
+    if (std::ranges::adjacent_find(sorted) != sorted.end()) std::iota(numbers.begin(), numbers.end(), 1);
+    return numbers;
+}
+
+const NrrdSegment* segment_of_number(std::span<const NrrdSegment> segments, std::int64_t number) {
+    const std::vector<std::int64_t> numbers = segment_numbers(segments);
+    const auto found = std::ranges::find(numbers, number);
+    return found == numbers.end() ? nullptr : &segments[static_cast<std::size_t>(found - numbers.begin())];
+}
+
+void check_segment_choice(std::span<const NrrdSegment> segments, std::optional<std::int64_t> number, const fs::path& path) {
+    const bool has_layers = std::ranges::any_of(segments, [](const NrrdSegment& segment) { return segment.layer != 0; });
+    if (!has_layers || (number && segment_of_number(segments, *number))) return;
+    std::string all;
+    const std::vector<std::int64_t> numbers = segment_numbers(segments);
+    for (std::size_t n = 0; n < segments.size(); ++n)
+        all += fmt::format("{}{} '{}'", n == 0 ? "" : ", ", numbers[n], segments[n].name);
+    throw Error(ErrorKind::invalid_input,
+                number ? fmt::format("{} has no segment {}; it has {}", path.string(), *number, all)
+                       : fmt::format("{} has {} on several layers; choose one with the option label: {}", path.string(),
+                                     counted(segments.size(), "segment"), all));
 }
 
 }  // namespace kontur

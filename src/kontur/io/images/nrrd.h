@@ -37,7 +37,7 @@ struct NrrdSegment {
     std::string name;
     std::array<double, 3> color{};  ///< red, green, blue from 0 to 1
     std::int64_t label_value = 1;
-    std::int64_t layer = 0;  ///< which frame of the file holds it
+    std::int64_t layer = 0;  ///< from 0; the file's frame `layer + 1` holds it
     std::string tags = "";   ///< NAME:VALUE with bars between them, see terms_in_tags
 };
 
@@ -45,15 +45,23 @@ struct NrrdSegment {
 /// Error(invalid_input) for a name that is no UTF-8. Error(unsupported) for floats.
 void write_seg_nrrd(const std::filesystem::path& path, const ImageView& labels, std::span<const NrrdSegment> segments);
 
-/// The same for masks of one grid that may overlap: their labels are 1, 2, ..., on as many layers as that takes. Throws
-/// Error(invalid_input) also for other than one segment for each mask and for different grids.
+/// The same for masks of one grid that may overlap, on layers; with the segments' own labels where all differ, else 1, 2,
+/// ... Throws Error(invalid_input) also for other than one segment for each mask and for different grids.
 void write_seg_nrrd_masks(const std::filesystem::path& path, std::span<const Mask> masks,
                           std::span<const NrrdSegment> segments, const Provenance& provenance = {});
 
 /// The segments that a file names, in its order; none in a plain NRRD file. Names that are no UTF-8 count as Latin-1.
 std::vector<NrrdSegment> read_nrrd_segments(const std::filesystem::path& path);
 
-/// The layer of the one segment with this label; nullopt where none or several have it.
-std::optional<std::int64_t> layer_of(std::span<const NrrdSegment> segments, std::int64_t label);
+/// What the segments of one file are told apart by: their label values, or where two share one, their places from 1 on.
+std::vector<std::int64_t> segment_numbers(std::span<const NrrdSegment> segments);
+
+/// The segment with this number; nullptr without one.
+const NrrdSegment* segment_of_number(std::span<const NrrdSegment> segments, std::int64_t number);
+
+/// Throws Error(invalid_input), naming file and segments, where none of several that a file names has this number, and
+/// without a number where they lie on several layers.
+void check_segment_choice(std::span<const NrrdSegment> segments, std::optional<std::int64_t> number,
+                          const std::filesystem::path& path);
 
 }  // namespace kontur

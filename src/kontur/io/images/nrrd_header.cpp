@@ -205,15 +205,19 @@ std::optional<std::size_t> component_axis(const std::vector<std::optional<Vec3>>
     for (std::size_t axis = 0; axis < directions.size(); ++axis)
         if (!directions[axis]) {
             if (found)
-                fields.refuse(ErrorKind::unsupported, "more than one of its axes is not in space; one at most is read");
+                fields.refuse(
+                    ErrorKind::unsupported,
+                    "more than one of its axes is not in space; one at most is read, so save a single channel first");
             found = axis;
         }
     if (directions.size() - (found ? 1 : 0) != 3)
         fields.refuse(ErrorKind::unsupported,
                       fmt::format("{} of its axes are in space; 3 are needed", directions.size() - (found ? 1 : 0)));
     if (found && *found != 0 && *found != 3)
-        fields.refuse(ErrorKind::unsupported,
-                      fmt::format("its axis {} is not in space; only the first or the last may be so", *found + 1));
+        fields.refuse(
+            ErrorKind::unsupported,
+            fmt::format("its axis {} is not in space; only the first or the last may be so; 3D Slicer saves it that way",
+                        *found + 1));
     return found;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -17,6 +18,8 @@
 
 namespace kontur {
 namespace {
+
+constexpr std::int64_t kMostLabels = std::numeric_limits<std::uint16_t>::max();
 
 /// As `segment_keys` wants it.
 std::string extent_text(const Mask& mask) {
@@ -77,7 +80,6 @@ void write_layers(const std::filesystem::path& path, std::span<const Mask> masks
     Layers<Value> layers;
     std::string keys = segmentation_keys();
     for (std::size_t n = 0; n < masks.size(); ++n) {
-        segments[n].label_value = static_cast<std::int64_t>(n + 1);
         segments[n].layer = static_cast<std::int64_t>(layers.add(masks[n], segments[n].label_value));
         keys += segment_keys(n, segments[n], extent_text(masks[n]));
     }
@@ -90,13 +92,26 @@ void write_layers(const std::filesystem::path& path, std::span<const Mask> masks
     });
 }
 
+std::int64_t largest_label(const std::vector<NrrdSegment>& segments) {
+    return std::ranges::max(segments, {}, &NrrdSegment::label_value).label_value;
+}
+
+/// With their own labels where these tell them apart, else with 1, 2, ...
+std::vector<NrrdSegment> with_labels(std::vector<NrrdSegment> segments) {
+    std::set<std::int64_t> labels;
+    for (const NrrdSegment& segment : segments) labels.insert(segment.label_value);
+    if (labels.size() == segments.size() && *labels.begin() >= 1 && *labels.rbegin() <= kMostLabels) return segments;
+    for (std::size_t n = 0; n < segments.size(); ++n) segments[n].label_value = static_cast<std::int64_t>(n + 1);
+    return segments;
+}
+
 void check_masks(std::span<const Mask> masks, std::span<const NrrdSegment> segments) {
     const auto refuse = [](const std::string& sentence) { throw Error(ErrorKind::invalid_input, sentence); };
     if (masks.empty() || masks.size() != segments.size())
         refuse(fmt::format("there are {} for {}; as many are needed, and 1 at least", counted(masks.size(), "mask"),
                            counted(segments.size(), "segment")));
-    if (masks.size() > std::numeric_limits<std::uint16_t>::max())
-        refuse(fmt::format("there are {} segments; a .seg.nrrd has room for 65535", masks.size()));
+    if (masks.size() > kMostLabels)
+        refuse(fmt::format("there are {} segments; a .seg.nrrd has room for {}", masks.size(), kMostLabels));
     for (const Mask& mask : masks) {
         check_mask(mask);
         if (!(mask.grid == masks[0].grid)) refuse("the masks lie on different grids; one is needed");
@@ -109,8 +124,9 @@ void check_masks(std::span<const Mask> masks, std::span<const NrrdSegment> segme
 void write_seg_nrrd_masks(const std::filesystem::path& path, std::span<const Mask> masks,
                           std::span<const NrrdSegment> segments, const Provenance& provenance) {
     check_masks(masks, segments);
-    const auto write = masks.size() <= 255 ? write_layers<std::uint8_t> : write_layers<std::uint16_t>;
-    write(path, masks, {segments.begin(), segments.end()}, provenance);
+    const std::vector<NrrdSegment> labelled = with_labels({segments.begin(), segments.end()});
+    const auto write = largest_label(labelled) <= 255 ? write_layers<std::uint8_t> : write_layers<std::uint16_t>;
+    write(path, masks, labelled, provenance);
 }
 
 }  // namespace kontur

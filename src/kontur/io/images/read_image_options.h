@@ -14,7 +14,7 @@ namespace kontur {
 enum class NiftiTransform { qform, sform };
 
 struct ReadImageOptions {
-    /// Which of several frames, layers or channels to read, counted from 0; without it such a file is refused.
+    /// Which of several frames, layers or channels to read, counted from 1; without it such a file is refused.
     std::optional<std::int64_t> frame;
     /// Which transform counts when a NIfTI file has two that differ by more than 0.1 mm; without it such a file is refused.
     std::optional<NiftiTransform> prefer;

@@ -203,9 +203,10 @@ void check_exact_in_float(const std::vector<Value>& values, const Rescaled& resc
     };
     for (const Value value : values)
         if (const double v = rescaled(value); !is_exact(v))
-            throw Error(
-                ErrorKind::unsupported,
-                fmt::format("the voxel value {:.0f} is beyond 32-bit integers, and a float does not hold it exactly", v));
+            throw Error(ErrorKind::unsupported,
+                        fmt::format("the voxel value {:.0f} is beyond 32-bit integers, and a float does not hold it "
+                                    "exactly; save the image with smaller integers first",
+                                    v));
 }
 
 /// Samples of slope * value + intercept, which are integers, in the narrowest type for their range.
@@ -244,13 +245,13 @@ std::int64_t chosen_component(const OpenImage& image, const std::optional<std::i
     const std::int64_t count = image.encoding.components;
     const std::string name = image.data.path().string();
     if (!frame && count > 1)
-        throw FrameNeeded(name + " has " + std::to_string(count) + " frames; choose one with the option frame (0 to " +
-                              std::to_string(count - 1) + ")",
+        throw FrameNeeded(name + " has " + std::to_string(count) + " frames; choose one with the option frame (1 to " +
+                              std::to_string(count) + ")",
                           count);
-    if (frame && (*frame < 0 || *frame >= count))
+    if (frame && (*frame < 1 || *frame > count))
         throw Error(ErrorKind::invalid_input, "frame " + std::to_string(*frame) + " of " + name +
-                                                  " was asked for, but it has frames 0 to " + std::to_string(count - 1));
-    return frame.value_or(0);
+                                                  " was asked for, but it has frames 1 to " + std::to_string(count));
+    return frame.value_or(1) - 1;
 }
 
 }  // namespace
@@ -291,7 +292,8 @@ Image read_voxels(OpenImage&& image, const ReadImageOptions& options, const Work
     const std::int64_t count = image.grid.voxel_count();
     if (count > options.max_voxels)
         throw Error(ErrorKind::too_large, image.data.path().string() + " has " + std::to_string(count) +
-                                              " voxels; at most " + std::to_string(options.max_voxels) + " are read");
+                                              " voxels; at most " + std::to_string(options.max_voxels) +
+                                              " are read, so crop it or resample it first");
     image.data.expect(declared_bytes(image));
     const auto voxels = static_cast<std::size_t>(count);
     return with_type(image.encoding.type, [&](auto zero) {

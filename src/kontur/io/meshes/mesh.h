@@ -32,12 +32,12 @@ struct PointValues {
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const PointValues& values,
                 const Provenance& provenance = {});
 
-/// Reads binary STL, PLY (text and binary of both byte orders) or OBJ, recognised by the path's extension. A file that
+/// Reads STL and PLY (text and binary; PLY of both byte orders) or OBJ, recognised by the path's extension. A file that
 /// declares `SPACE=RAS` is turned to LPS; one that declares nothing is taken as LPS mm. STL points with identical
-/// coordinates become one, and triangles that collapse by that are dropped; polygons of PLY and OBJ are cut into fans. OBJ
-/// normals are kept where every point has exactly one. Throws Error(corrupt_file), before any allocation by a declared
-/// count, for a file that holds less or other than it declares; Error(unsupported) for text STL or another extension;
-/// Error(too_large) for more than 2^32 - 1 points; Error(io).
+/// coordinates, as 32-bit floats, become one, and triangles that collapse by that are dropped; polygons of PLY and OBJ are
+/// cut into fans. OBJ normals are kept where every point has exactly one. Throws Error(corrupt_file), before any
+/// allocation by a declared count, for a file that holds less or other than it declares; Error(unsupported) for another
+/// extension; Error(too_large) for more than 2^32 - 1 points; Error(io).
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace kontur

@@ -79,7 +79,8 @@ TriangleMesh to_mesh(const PolyData& data) {
     }
     if (mesh.triangles.empty() && data.lines.size() > 0)
         throw Error(ErrorKind::unsupported,
-                    fmt::format("it holds {} lines and no polygons: contours, and no mesh", data.lines.size()));
+                    fmt::format("it holds {} lines and no polygons: contours, and no mesh; kontur segment makes one of them",
+                                data.lines.size()));
     return mesh;
 }
 

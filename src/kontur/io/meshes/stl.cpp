@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <unordered_map>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/meshes/mesh_formats.h"
 
 static_assert(std::endian::native == std::endian::little, "binary STL is little endian");
@@ -28,6 +30,11 @@ constexpr std::size_t kFacetSize = sizeof(Facet) + 2;
 static_assert(kFacetSize == 50);
 
 Float3 to_floats(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+void append_triangle(const std::array<std::uint32_t, 3>& triangle, TriangleMesh& mesh) {
+    const auto& [a, b, c] = triangle;
+    if (a != b && b != c && c != a) mesh.triangles.push_back(triangle);
+}
 
 /// Points by their exact coordinates; 0 and -0 are the same.
 class PointMerger {
@@ -58,9 +65,64 @@ private:
     std::unordered_map<Float3, std::uint32_t, Hash> indices_;
 };
 
+/// Titles of binary files begin with this word, too.
+bool is_text(std::string_view bytes) {
+    const std::string begin = lower_case(bytes.substr(0, 1024));
+    return begin.starts_with("solid") && begin.find("facet") != std::string::npos;
+}
+
+/// Facets of a text file, line by line.
+class TextParser {
+public:
+    TriangleMesh parse(std::string_view text) {
+        const PatientFrame frame = declared_frame(text.substr(0, text.find('\n')), PatientFrame::lps);
+        TriangleMesh mesh;
+        PointMerger merger(mesh, frame);
+        for (std::uint64_t line = 1; !text.empty(); ++line) try {
+                parse_line(take_line(text), merger, mesh);
+            } catch (const Error& error) {
+                throw error.with_context(fmt::format("line {}", line));
+            }
+        if (is_open_ || is_facet_) throw Error(ErrorKind::corrupt_file, "the file ends amid its triangles");
+        return mesh;
+    }
+
+private:
+    void parse_line(std::string_view line, PointMerger& merger, TriangleMesh& mesh) {
+        const std::string keyword = lower_case(take_word(line));
+        if (keyword == "solid") is_open_ = true;
+        else if (keyword == "facet") is_facet_ = true;
+        else if (keyword == "vertex") append_corner(line, merger);
+        else if (keyword == "endfacet") end_triangle(mesh);
+        else if (keyword == "endsolid") is_open_ = is_facet_;
+        else if (keyword != "outer" && keyword != "endloop" && !keyword.empty())
+            throw Error(ErrorKind::corrupt_file, fmt::format("\"{}\" is no word of STL", keyword.substr(0, 40)));
+    }
+
+    void append_corner(std::string_view line, PointMerger& merger) {
+        Float3 corner{};
+        for (float& c : corner) {
+            const double value = number_of(take_word(line));
+            if (std::abs(value) > std::numeric_limits<float>::max())
+                throw Error(ErrorKind::corrupt_file, fmt::format("the coordinate {:g} is beyond 32-bit floats", value));
+            c = static_cast<float>(value);
+        }
+        corners_.push_back(merger.index(corner));
+    }
+
+    void end_triangle(TriangleMesh& mesh) {
+        if (corners_.size() != 3)
+            throw Error(ErrorKind::corrupt_file, fmt::format("a facet has {} corners; 3 are needed", corners_.size()));
+        append_triangle({corners_[0], corners_[1], corners_[2]}, mesh);
+        corners_.clear();
+        is_facet_ = false;
+    }
+
+    std::vector<std::uint32_t> corners_;
+    bool is_open_ = false, is_facet_ = false;
+};
+
 std::uint32_t checked_facet_count(std::string_view bytes) {
-    const bool is_text = bytes.starts_with("solid") && bytes.substr(0, 1024).find("facet") != std::string_view::npos;
-    if (is_text) throw Error(ErrorKind::unsupported, "a text STL file; binary STL is needed");
     if (bytes.size() < kHeaderSize)
         throw Error(ErrorKind::corrupt_file,
                     fmt::format("{} bytes are no STL file; its header alone has {}", bytes.size(), kHeaderSize));
@@ -96,6 +158,7 @@ void write_stl(AtomicFile& file, const TriangleMesh& mesh, const Provenance& pro
 }
 
 TriangleMesh parse_stl(std::string_view bytes) {
+    if (is_text(bytes)) return TextParser().parse(bytes);
     const std::uint32_t count = checked_facet_count(bytes);
     TriangleMesh mesh;
     mesh.triangles.reserve(count);
@@ -110,8 +173,7 @@ TriangleMesh parse_stl(std::string_view bytes) {
                     throw Error(ErrorKind::corrupt_file, fmt::format("triangle {} has the coordinate {}", i + 1, c));
             triangle[corner] = merger.index(facet.corners[corner]);
         }
-        const auto& [a, b, c] = triangle;
-        if (a != b && b != c && c != a) mesh.triangles.push_back(triangle);
+        append_triangle(triangle, mesh);
     }
     return mesh;
 }

@@ -118,8 +118,11 @@ private:
     void check_dataset() {
         const std::string_view kind = take_word(line_);
         if (lower_case(std::string(kind)) != "polydata")
-            throw Error(ErrorKind::unsupported,
-                        fmt::format("it holds the data set {}; polygonal data (POLYDATA) are read", kind.substr(0, 40)));
+            throw Error(
+                ErrorKind::unsupported,
+                fmt::format(
+                    "it holds the data set {}; polygonal data (POLYDATA) are read, as ParaView's Extract Surface makes",
+                    kind.substr(0, 40)));
     }
 
     std::size_t take_count() {

@@ -263,14 +263,18 @@ private:
 
     void take_root(const XmlTag& tag) {
         if (const auto kind = tag.attribute("type"); kind != "PolyData")
-            unsupported(fmt::format("it holds the data set {}; polygonal data (PolyData) are read", kind.substr(0, 40)));
+            unsupported(fmt::format(
+                "it holds the data set {}; polygonal data (PolyData) are read, as ParaView's Extract Surface makes",
+                kind.substr(0, 40)));
         const std::string_view counts = tag.attribute("header_type"), packer = tag.attribute("compressor");
         coding_.big_endian = tag.attribute("byte_order") == "BigEndian";
         coding_.wide_counts = counts == "UInt64";
         coding_.compressed = !packer.empty();
         if (!packer.empty() && packer != "vtkZLibDataCompressor")
-            unsupported(fmt::format("its arrays are compressed by {}; those by vtkZLibDataCompressor are read",
-                                    packer.substr(0, 40)));
+            unsupported(
+                fmt::format("its arrays are compressed by {}; those by vtkZLibDataCompressor are read; save it so, or "
+                            "without compression",
+                            packer.substr(0, 40)));
         has_root_ = true;
     }
 

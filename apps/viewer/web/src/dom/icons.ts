@@ -4,6 +4,7 @@
 export const ICONS = {
   undo: "M7 5L3.500 8.500 7 12M4 8.500h8a4.500 4.500 0 0 1 0 9H9",
   redo: "M13 5l3.500 3.500L13 12M16 8.500H8a4.500 4.500 0 0 0 0 9h3",
+  copy: "M7 7h9v9H7zM13 7V4H4v9h3",
   copyUp: "M4 13l6 3 6-3M10 11V3M7 6l3-3 3 3",
   copyDown: "M4 7l6-3 6 3M10 9v8M7 14l3 3 3-3",
   remove: "M4 6h12M8 6V4h4v2M6 6l.7 11h6.600L14 6",

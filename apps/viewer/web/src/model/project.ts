@@ -49,7 +49,7 @@ export class Project extends Emitter<Topic> {
   }
 
   apply({ structures, contours, history, borders, use_image }: Changed): void {
-    for (const structure of structures?.set ?? []) this.structures.set(structure.id, structure);
+    for (const structure of structures?.set ?? []) this.setStructure(structure);
     for (const id of structures?.removed ?? []) {
       this.structures.delete(id);
       this.surfaces.delete(id);
@@ -66,6 +66,18 @@ export class Project extends Emitter<Topic> {
     this.draftContour = null;
     this.keepReferencesValid();
     this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders", "image");
+  }
+
+  /** In the order of their making, whatever was deleted and taken back. */
+  private setStructure(structure: Structure): void {
+    const isKnown = this.structures.has(structure.id);
+    this.structures.set(structure.id, structure);
+    if (isKnown) return;
+    const later = [...this.structures.values()].filter(({ id }) => id > structure.id);
+    for (const one of later) {
+      this.structures.delete(one.id);
+      this.structures.set(one.id, one);
+    }
   }
 
   setSurface(surface: Surface): void {

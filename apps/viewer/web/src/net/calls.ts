@@ -11,11 +11,11 @@ export type Caller = <Name extends CallName>(name: Name, args: Arguments<Name>) 
 /** Has the server do something. What comes of it is told by events. */
 export type Maker = <Name extends CallName>(name: Name, args: Arguments<Name>) => void;
 
-const OF_LOOKS = ["id", "ids", "name", "color", "visible"];
+const OF_LOOKS = ["id", "ids", "name", "color", "visible", "label_value"];
 
 /** Whether a call changes what is drawn, and not only how it is called, coloured and seen. */
 export function changesDrawing<Name extends CallName>(name: Name, args: Arguments<Name>): boolean {
-  if (name === "structure.add") return false;
+  if (name === "structure.add" || name === "structure.show_only") return false;
   const isSetting = name === "contour.set" || name === "structure.set";
   return !isSetting || Object.keys(args).some((key) => !OF_LOOKS.includes(key));
 }

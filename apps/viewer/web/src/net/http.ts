@@ -60,6 +60,12 @@ export class Http {
     return new BinaryReply(await reply.arrayBuffer());
   }
 
+  /** Of the middle slice of a file's frame, from 0. */
+  async frameThumbnail(file: string, frame: number): Promise<BinaryReply<{ width: number; height: number }>> {
+    const reply = await this.request(`thumbnail?${new URLSearchParams({ file, frame: String(frame + 1), volume: "1" })}`);
+    return new BinaryReply(await reply.arrayBuffer());
+  }
+
   /** Begins to read; events tell the rest. */
   async open(request: OpenRequest): Promise<void> {
     await this.post("open", JSON.stringify(request));

@@ -31,6 +31,10 @@ export interface PageActionServices {
   session(): Session | null;
   /** What others have drawn on the image, in files near it. */
   near(): readonly NearDrawing[];
+  /** Lets the user type the name of a structure. */
+  rename(structure: number): void;
+  /** The first hint is taken away; false where there is none. */
+  leaveHint(): boolean;
   /** What the pointer does is given up; false where it does nothing. */
   cancelPointers(): boolean;
 }
@@ -55,7 +59,8 @@ export class PageActions {
 
   /** Esc: first what the pointer does, then the sketch, then the tool, then the selection. */
   readonly leave = (): void => {
-    const { editor, project, cancelPointers } = this.services;
+    const { editor, project, cancelPointers, leaveHint } = this.services;
+    if (leaveHint()) return;
     if (cancelPointers()) return;
     if (editor.drawing.sketch) return editor.drawing.leave();
     if (editor.proposals.drop() || editor.leaveBegun()) return;
@@ -69,28 +74,37 @@ export class PageActions {
     if (view) this.services.panes.activate(view);
   };
 
-  /** A new structure is for what is drawn next. */
+  /** A new structure is for what is drawn next. Its name is asked for at once. */
   readonly addStructure = async (): Promise<void> => {
-    const { socket, project, saving } = this.services;
+    const { socket, project, saving, rename } = this.services;
     try {
       const { structure } = await socket.call("structure.add", {});
       project.select(null);
       project.activate(structure.id);
+      rename(structure.id);
     } catch (error) {
       saving.failed(error);
     }
   };
 
   /** The start page, for all pages of this project. Nothing is lost, so what is not saved yet is waited for. */
-  readonly openAnother = async (): Promise<void> => {
+  readonly openAnother = async (): Promise<void> => void (await this.leaveForStart());
+
+  /** False where the image stays open. */
+  readonly leaveForStart = async (): Promise<boolean> => {
     const { http, socket, keeper, saving, notices } = this.services;
-    if (!saving.isDone) return void notices.show("warning", "Not all is saved yet. Save it (Enter), or give it up (Esc), before another image is opened.");
+    if (!saving.isDone) {
+      notices.show("warning", "Not all is saved yet. Save it (Enter), or give it up (Esc), before another image is opened.");
+      return false;
+    }
     keeper.saveNow();
     try {
       await socket.call("ping", {}); // after what was asked before: the page's own state, too
       await http.close();
+      return true;
     } catch (error) {
       saving.failed(error);
+      return false;
     }
   };
 
@@ -104,8 +118,9 @@ export class PageActions {
 
   readonly openExport = (): void => {
     const { panes, surface, project, session } = this.services;
-    const picture = () => snapshot({ stage: panes.element, redraw3D: () => surface.redraw(), project, session: session()! });
-    openExport({ ...this.services, hasDicom: () => session()?.has_dicom ?? false, snapshot: picture });
+    const picture = () => snapshot({ stage: panes.element, redraw3D: () => surface.redraw(), cube: () => surface.cubePlace(), project, session: session()! });
+    const setLabel = async (id: number, label_value: number | "automatic") => void (await this.services.socket.call("structure.set", { id, label_value }));
+    openExport({ ...this.services, hasDicom: () => session()?.has_dicom ?? false, snapshot: picture, setLabel });
   };
 
   readonly openStatistics = (): void => {

@@ -43,6 +43,8 @@ export class Controls {
       ...this.shared(),
       near: () => this.near.found,
       cancelPointers: stage.cancelPointers,
+      rename: (structure) => this.panel.rename(structure),
+      leaveHint: () => this.hints.leaveFirst(),
     });
     this.hints = new Hints({ ...this.shared(), stage: stage.panes.element, undo: this.actions.undo, seen: () => keepers.page.saveSoon() });
     this.secondCard = new SecondImageCard(models.second, () => keepers.furtherImage.remove());

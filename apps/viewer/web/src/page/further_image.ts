@@ -23,8 +23,8 @@ export class FurtherImageKeeper {
 
   add(): void {
     const { http, second, session } = this.services;
-    const { places = [], folder = "" } = session() ?? {};
-    this.dialog = new AddImageDialog({ http, places, folder, present: second.info });
+    const { places = [], folder = "", frame_of_reference_uid: frame = "" } = session() ?? {};
+    this.dialog = new AddImageDialog({ http, places, folder, frame, present: second.info });
   }
 
   /** It goes at once, so that nothing is asked of it meanwhile; if the server keeps it, it is back. */

@@ -29,15 +29,24 @@ export class Hints {
   }
 
   showFirst(): void {
-    const { editor, stage, seen } = this.services;
+    const { editor, stage } = this.services;
     if (this.isSeen || stage.querySelector(".first-hint")) return;
     const hint = firstHint(() => {
-      hint.remove();
-      this.isSeen = true;
+      this.leaveFirst();
       editor.choose("wire");
-      seen();
     });
     stage.append(hint);
+    hint.querySelector("button")?.focus({ preventScroll: true });
+  }
+
+  /** Takes the first one away; false where there is none. */
+  leaveFirst(): boolean {
+    const hint = this.services.stage.querySelector(".first-hint");
+    if (!hint) return false;
+    hint.remove();
+    this.isSeen = true;
+    this.services.seen();
+    return true;
   }
 
   /** Said until the next edit, as long as undo takes back this one. */

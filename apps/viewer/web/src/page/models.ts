@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Appearance } from "../model/appearance";
 import { Navigation } from "../model/navigation";
+import { Opacities } from "../model/opacities";
 import { PaneSizes } from "../model/pane_sizes";
 import { Project } from "../model/project";
 import { SecondImage } from "../model/second_image";
@@ -11,6 +12,7 @@ export class Models {
   readonly navigation = new Navigation();
   readonly project = new Project();
   readonly appearance = new Appearance();
+  readonly opacities = new Opacities();
   readonly sizes = new PaneSizes();
   readonly second = new SecondImage();
 

@@ -2,6 +2,7 @@
 import type { Appearance, SavedAppearance } from "../model/appearance";
 import type { Measurement } from "../model/measurements";
 import type { Navigation, SavedNavigation } from "../model/navigation";
+import type { Opacities } from "../model/opacities";
 import type { PaneSizes, SavedSizes } from "../model/pane_sizes";
 import type { Project } from "../model/project";
 import type { SavedSecondImage, SecondImage } from "../model/second_image";
@@ -18,6 +19,7 @@ export interface SavedPage {
   hintSeen: boolean;
   appearance?: SavedAppearance;
   sizes?: SavedSizes;
+  opacities?: Record<string, number>;
   measurements?: Measurement[];
   second?: SavedSecondImage;
   sketch?: SavedSketch;
@@ -29,6 +31,7 @@ export interface SavedPageServices {
   project: Project;
   appearance: Appearance;
   sizes: PaneSizes;
+  opacities: Opacities;
   second: SecondImage;
   editor: Editor;
   isOpen(): boolean;
@@ -61,7 +64,8 @@ export class PageKeeper {
 
   /** What of it an opened page takes up again; all but where it looks. */
   restore(page: SavedPage | null): void {
-    const { project, appearance, editor } = this.services;
+    const { project, appearance, opacities, editor } = this.services;
+    if (page?.opacities) opacities.restore(page.opacities);
     if (page?.appearance) appearance.set(page.appearance);
     if (page?.measurements) editor.measuring.measurements.restore(page.measurements);
     if (page?.structure) project.activate(page.structure);
@@ -69,7 +73,7 @@ export class PageKeeper {
   }
 
   private state(): SavedPage {
-    const { navigation, project, appearance, sizes, editor } = this.services;
+    const { navigation, project, appearance, sizes, opacities, editor } = this.services;
     const { drawing, measuring } = editor;
     const state: SavedPage = {
       navigation: navigation.saved(),
@@ -77,6 +81,7 @@ export class PageKeeper {
       hintSeen: this.services.hintSeen(),
       appearance: appearance.saved(),
       sizes: sizes.saved(),
+      opacities: opacities.saved(),
       measurements: measuring.measurements.saved(),
     };
     const second = this.services.second.saved();

@@ -2,7 +2,10 @@
 import { ServerError } from "../net/http";
 import type { ConnectionState } from "../net/socket";
 import type { Outbox } from "../tools/outbox";
+import { shellWord } from "../model/shell";
+import type { Remedy } from "../tools/services";
 import type { Sketch } from "../tools/sketch";
+import { copyText } from "../ui/copying";
 import type { Notices, StatusBar } from "../ui/status";
 
 const REFUSALS = new Set(["invalid_input", "not_found"]); // by which no work is lost: it could not be done
@@ -11,7 +14,7 @@ export interface SavingServices {
   status: StatusBar;
   notices: Notices;
   outbox(): Outbox;
-  /** The project's file; undefined before one is open. */
+  /** Where the project's file lies; undefined before one is open. */
   project(): string | undefined;
   token: string;
 }
@@ -53,7 +56,7 @@ export class Saving {
   tellNotSaved(sketch: Sketch, why: string): void {
     this.closeUnsavedNotice();
     const stays = `${sketch.title} is not saved. It stays on its slice: Enter tries again, Esc gives it up.`;
-    this.closeUnsavedNotice = this.services.notices.show("error", [why.replace(/\.?$/, "."), stays, this.rescue()].join(" "));
+    this.closeUnsavedNotice = this.services.notices.show("error", [why.replace(/\.?$/, "."), stays, this.rescueText()].join(" "), this.rescueCopy());
     this.tell();
   }
 
@@ -81,9 +84,10 @@ export class Saving {
     const { notices, outbox } = this.services;
     const project = this.services.project();
     const text = project
-      ? `The connection to kontur is lost. What was saved is in ${project}. While kontur runs this page connects again by itself; if kontur has ended, open ${project} with it again, at the address that it prints then.`
+      ? `The connection to kontur is lost. What was saved is in ${project}. While kontur runs this page connects again by itself; if kontur has ended, start it again with: kontur open ${shellWord(project)}, and use the address that it prints then.`
       : "No kontur answers at this address. If it was started again, use the address that it printed last.";
-    this.closeWhenConnected.push(notices.show("error", text));
+    const command = project && `kontur open ${shellWord(project)}`;
+    this.closeWhenConnected.push(notices.show("error", text, command ? { label: "Copy the command", act: () => void copyText(command) } : undefined));
     if (this.unsaved > 0 && !outbox().isSending)
       notices.show(
         "error",
@@ -92,8 +96,19 @@ export class Saving {
   }
 
   /** Only a kontur at this very address can take what this page alone still has. */
-  private rescue(): string {
-    if (this.connection === "open") return "";
-    return `If kontur has ended, start it for this page: kontur open ${this.services.project()} --port ${location.port} --token ${this.services.token}`;
+  private rescue(): string | null {
+    const project = this.services.project();
+    if (this.connection === "open" || project === undefined) return null;
+    return `kontur open ${shellWord(project)} --port ${location.port} --token ${this.services.token}`;
+  }
+
+  private rescueText(): string {
+    const command = this.rescue();
+    return command ? `If kontur has ended, start it for this page: ${command}` : "";
+  }
+
+  private rescueCopy(): Remedy | undefined {
+    const command = this.rescue();
+    return command ? { label: "Copy the command", act: () => void copyText(command) } : undefined;
   }
 }

@@ -30,7 +30,7 @@ export class Server {
       status: this.status,
       notices: this.notices,
       outbox: services.outbox,
-      project: () => services.session()?.project,
+      project: () => services.session()?.project_path,
       token,
     });
     this.socket = new Socket(token, {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { ViewAxes } from "../three/cube";
 import { identityLines } from "../ui/identity";
+import { paintCube } from "./snapshot_cube";
 import type { Project } from "../model/project";
+import { volumeText } from "../model/volumes";
 import type { Session, Structure } from "../net/protocol";
 
 const LINE = 20; // pixels of the page
@@ -11,12 +14,14 @@ export interface SnapshotServices {
   stage: HTMLElement;
   /** Draws the 3D view once more: a canvas of WebGL forgets its picture. */
   redraw3D(): void;
+  /** How the cube of the 3D view lies, and where; null where there is none. */
+  cube(): { axes: ViewAxes; box: DOMRect } | null;
   project: Project;
   session: Session;
 }
 
 /** One picture of all views as they are seen, with whose image it is and what its structures are called. */
-export async function snapshot({ stage, redraw3D, project, session }: SnapshotServices): Promise<Blob> {
+export async function snapshot({ stage, redraw3D, cube, project, session }: SnapshotServices): Promise<Blob> {
   const area = stage.getBoundingClientRect();
   const structures = [...project.structures.values()].filter(({ id, visible }) => visible && project.contoursOf(id).length > 0);
   const lines = [identityLines(session).join("  ·  ")];
@@ -31,6 +36,10 @@ export async function snapshot({ stage, redraw3D, project, session }: SnapshotSe
   context.fillRect(0, 0, area.width, area.height + below);
   redraw3D();
   for (const pane of stage.querySelectorAll<HTMLElement>(".pane:not([hidden])")) paintPane(context, pane, area);
+  const solid = cube();
+  if (solid) paintCube(context, solid.axes, solid.box, area);
+  const bar = stage.querySelector<HTMLElement>(".surface-scale:not([hidden])");
+  if (bar) paintScale(context, bar, area);
   paintWords(context, [0, area.height], area.width, lines, structures, project);
   return await new Promise((resolve, reject) =>
     canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("The browser has no memory for a picture of this size.")))),
@@ -60,6 +69,17 @@ function paintPane(context: CanvasRenderingContext2D, pane: HTMLElement, area: D
   context.restore();
 }
 
+/** The bar of the 3D view, with its length above it. */
+function paintScale(context: CanvasRenderingContext2D, bar: HTMLElement, area: DOMRect): void {
+  const box = bar.getBoundingClientRect();
+  if (box.width === 0) return;
+  const [x, y] = [box.left - area.left, box.bottom - area.top];
+  context.strokeStyle = "#ffffff";
+  context.lineWidth = 1.5;
+  context.stroke(new Path2D(`M${x} ${y - 5}V${y}H${x + box.width}V${y - 5}`));
+  word(context, bar.textContent ?? "", [x + 2, y - 7], "#ffffff");
+}
+
 /** The first colour of the gradient behind the 3D view. */
 const groundOf = (pane: HTMLElement): string => /(?:rgba?|color)\([^()]*\)/.exec(getComputedStyle(pane).backgroundImage)?.[0] ?? "#20242b";
 
@@ -86,7 +106,7 @@ function paintWords(
     context.fillStyle = color;
     context.fillRect(left + 10, y - 11, 12, 12);
     const volume = project.surfaces.get(id)?.volume_ml;
-    word(context, volume === undefined ? name : `${name}  ·  ${volume.toPrecision(3)} ml`, [left + 30, y], "#ffffff", width - 40);
+    word(context, volume === undefined ? name : `${name}  ·  ${volumeText(volume)}`, [left + 30, y], "#ffffff", width - 40);
     y += LINE;
   }
 }

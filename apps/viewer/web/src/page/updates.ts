@@ -58,13 +58,14 @@ function updateViews({ models, editor, stage }: UpdateParts): void {
 }
 
 function updateSurface({ models, editor, stage }: UpdateParts): void {
-  const { navigation, project, theme } = models;
+  const { navigation, project, theme, opacities } = models;
   const { surface } = stage;
   navigation.on(["planes"], () => surface.planesChanged());
   project.on(["contours", "structures", "selection"], () => surface.contoursChanged());
   project.on(["structures"], () => surface.restyle());
   project.on(["surfaces"], () => surface.surfacesChanged());
   theme.on(["changed"], () => surface.themeChanged());
+  opacities.on(["changed"], () => surface.restyle());
   editor.points.on(["points"], () => surface.pointsChanged());
 }
 
@@ -86,6 +87,7 @@ function updateKeepers({ models, server, editor, keepers }: UpdateParts): void {
   models.sizes.on(["changed"], saveSoon);
   models.project.on(["structures"], saveSoon);
   models.appearance.on(["changed"], saveSoon);
+  models.opacities.on(["changed"], saveSoon);
   models.second.on(["shown", "look"], saveSoon);
   editor.measuring.measurements.on(["changed"], saveSoon);
   editor.drawing.on(["points"], saveSoon);

@@ -12,21 +12,24 @@ export interface AddImageServices {
   places: Place[];
   /** Where to begin to look. */
   folder: string;
+  /** Frame of reference of the project's own image, or "". */
+  frame: string;
   /** The one whose place it takes. */
   present: FurtherImage | null;
 }
 
 /** Chooses what is seen over the project's own image. It closes when that is there. */
 export class AddImageDialog {
-  private readonly problem = new Problem("add-image-problem");
+  private readonly problem: Problem;
   private readonly status = el("p", { class: "dialog-status", "aria-live": "polite", "data-test": "add-image-status" });
   private readonly folders: FolderView;
   private readonly dialog: HTMLDialogElement;
   private reading: AbortController | null = null;
 
   constructor(private readonly services: AddImageServices) {
-    const { http, places, folder, present } = services;
-    const words = { title: "An image of the same patient, on the same frame of reference", open: "Show this series over the image", onlyImages: true };
+    const { http, places, folder, frame, present } = services;
+    this.problem = new Problem("add-image-problem", http);
+    const words = { title: "An image of the same patient, on the same frame of reference", open: "Show this series over the image", onlyImages: true, frame };
     this.folders = new FolderView(http, { open: (request) => void this.add(request), problem: (sentence) => this.problem.set(sentence) }, words);
     const replaces = present && el("p", { class: "fine" }, `It takes the place of ${present.title}.`);
     this.dialog = openDialog(

@@ -17,6 +17,8 @@ interface FolderWords {
   /** What a click on a series does. */
   open: string;
   onlyImages?: boolean; // no projects
+  /** Series of this frame of reference come first, and all say how they lie to it. */
+  frame?: string;
 }
 
 /** A chooser of what lies on the server's disk, as far as the server shows it: places, folders, images, DICOM volumes. */
@@ -55,7 +57,7 @@ export class FolderView {
     private readonly services: FolderServices,
     private readonly words: FolderWords = { title: "Open", open: "Open this series" },
   ) {
-    this.cards = new VolumeCards(http, services.open, words.open);
+    this.cards = new VolumeCards(http, services.open, words.open, words.frame);
     this.element.append(
       el("h2", {}, words.title),
       this.places,
@@ -106,7 +108,6 @@ export class FolderView {
       if (signal.aborted) return;
       if (error instanceof ServerError && error.message.endsWith("is no folder")) return this.services.open({ path });
       this.services.problem(error instanceof Error ? error.message : String(error));
-      if (this.shown) this.path.value = this.shown.path;
     }
   }
 

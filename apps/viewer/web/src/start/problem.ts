@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Http } from "../net/http";
 import type { OpenRequest } from "../net/protocol";
 import { button, el } from "../dom/dom";
 import { frameChoice } from "./frame_choice";
+import { FramePictures } from "./frame_pictures";
 
 /** Where a chooser of images says what stands in the way, and asks for what is missing. */
 export class Problem {
   readonly element: HTMLElement;
 
-  constructor(test: string) {
+  private readonly pictures: FramePictures;
+
+  constructor(test: string, http: Http) {
+    this.pictures = new FramePictures(http);
     this.element = el("p", { class: "start-problem", role: "alert", "data-test": test, hidden: true });
   }
 
@@ -24,6 +29,14 @@ export class Problem {
     else if (!said.includes(sentence)) this.set(`${said} ${sentence}`);
   }
 
+  /** A project's image is not where it was: asks for its new place. */
+  askPlace(image: string, locate: () => void): void {
+    this.set(`The image of this project is not at ${image} any more. If it has moved, show where it is now.`);
+    const go = button({ label: "Locate the image", title: "Choose the image in its new place below", class: "choice", test: "locate", click: locate });
+    this.element.append(" ", go);
+    go.focus();
+  }
+
   tell(error: unknown): void {
     this.set(error instanceof Error ? error.message : String(error));
   }
@@ -34,7 +47,11 @@ export class Problem {
       this.set(sentence);
       this.element.append(choice.element);
     };
-    const choice = frameChoice(frames, (frame) => goOn({ ...request, frame }), say);
+    const choice = frameChoice(frames, {
+      choose: (frame) => goOn({ ...request, frame }),
+      wrong: say,
+      paint: (canvas, frame) => this.pictures.show(canvas, request.image ?? request.path, frame),
+    });
     say(`${request.path} has ${frames} frames. Which one is ${is}?`);
     choice.focus();
   }

@@ -13,7 +13,7 @@ const ENDED = "There is no connection to kontur. If it has ended, start it again
 export class StartPage {
   readonly element = el("dialog", { class: "start", "aria-label": "Open an image", "data-test": "start" });
   private readonly version = el("span", { class: "fine" });
-  private readonly problem = new Problem("start-problem");
+  private readonly problem: Problem;
   private readonly recent = el("ul", { class: "start-list" });
   private readonly folders: FolderView;
   private readonly opening = el("section", { class: "opening", "aria-label": "Opening", "data-test": "opening", hidden: true });
@@ -22,8 +22,10 @@ export class StartPage {
   private readonly openingBar = el("progress", { max: 1, "aria-label": "Read so far" });
   private example = "";
   private asked: OpenRequest | null = null;
+  private locating: string | null = null; // the project whose image is looked for
 
   constructor(private readonly http: Http) {
+    this.problem = new Problem("start-problem", http);
     this.folders = new FolderView(http, { open: (request) => void this.open(request), problem: (sentence) => this.problem.set(sentence) });
     const cancel = button({
       label: "Cancel",
@@ -81,8 +83,9 @@ export class StartPage {
     else this.openingBar.removeAttribute("value");
   }
 
-  failed({ kind, message, frames, transforms }: Failed["error"]): void {
+  failed({ kind, message, frames, transforms, moved }: Failed["error"]): void {
     this.setOpening(null);
+    if (moved !== undefined && this.asked) return this.askPlace(this.asked.path, moved);
     if (frames !== undefined && this.asked) return this.problem.askFrame(this.asked, frames, "to be opened", (chosen) => void this.open(chosen));
     if (transforms && this.asked) return this.problem.askTransform(this.asked, (chosen) => void this.open(chosen));
     this.problem.set(kind === "cancelled" ? "" : message);
@@ -118,7 +121,24 @@ export class StartPage {
     });
   }
 
-  private open(request: OpenRequest): Promise<void> {
+  private askPlace(project: string, image: string): void {
+    this.problem.askPlace(image, () => {
+      this.locating = project;
+      this.problem.set(`Choose the image of ${project} below, in its new place. A project that is chosen is opened instead.`);
+      this.folders.path.focus();
+    });
+  }
+
+  /** An image that is chosen while a project's is looked for is that project's. */
+  private located(request: OpenRequest): OpenRequest {
+    const project = this.locating;
+    this.locating = null;
+    const isProject = request.path.endsWith(".kontur") || request.path === this.example;
+    return project && !isProject ? { ...request, path: project, image: request.path } : request;
+  }
+
+  private open(wanted: OpenRequest): Promise<void> {
+    const request = this.located(wanted);
     this.asked = request;
     this.problem.set("");
     return this.attempt(() => this.http.open(request));

@@ -3,6 +3,7 @@ import type { Http } from "../net/http";
 import type { OpenRequest, Volume } from "../net/protocol";
 import { button, el } from "../dom/dom";
 import { render } from "../dom/pieces";
+import { paintThumbnail } from "./thumbnails";
 
 /** The volumes of a DICOM folder by patient and study, each with a picture of its middle slice. */
 export class VolumeCards {
@@ -12,6 +13,8 @@ export class VolumeCards {
     private readonly http: Http,
     private readonly open: (request: OpenRequest) => void,
     private readonly title: string,
+    /** Of the image that one is to be seen over; "": any will do. */
+    private readonly frame = "",
   ) {}
 
   clear(): void {
@@ -21,7 +24,7 @@ export class VolumeCards {
   /** Settles when all pictures are there. */
   async show(folder: string, volumes: Volume[], signal: AbortSignal): Promise<void> {
     const pictures: [HTMLCanvasElement, Volume][] = [];
-    const groups = groupsOf(volumes).map(([title, members]) =>
+    const groups = groupsOf(inOrderOfFrame(volumes, this.frame)).map(([title, members]) =>
       el(
         "section",
         { "aria-label": title },
@@ -33,7 +36,7 @@ export class VolumeCards {
     render(this.element, groups);
     for (const [canvas, volume] of pictures) {
       if (signal.aborted) return;
-      await this.paint(canvas, volume, signal);
+      await paintThumbnail(canvas, () => this.http.thumbnail(volume.picture.file, volume.picture.frame, signal));
     }
   }
 
@@ -45,24 +48,8 @@ export class VolumeCards {
     const card = button({ title: this.title, class: "volume", test: "volume", click: () => this.open({ path: folder, series, volume: number }) });
     card.removeAttribute("aria-label"); // what it shows is its name
     card.append(canvas, el("strong", {}, title), ...lines.map((line) => el("span", {}, line)));
+    if (this.frame) card.append(el("span", { class: "frame-of-reference" }, frameWords(volume, this.frame)));
     return el("li", {}, card);
-  }
-
-  /** Without a picture a card is as good. */
-  private async paint(canvas: HTMLCanvasElement, { picture }: Volume, signal: AbortSignal): Promise<void> {
-    try {
-      const reply = await this.http.thumbnail(picture.file, picture.frame, signal);
-      const { width, height } = reply.header;
-      const shades = reply.u8("pixels");
-      const pixels = new ImageData(width, height);
-      for (let i = 0; i < shades.length; ++i) pixels.data.set([shades[i]!, shades[i]!, shades[i]!, 255], 4 * i);
-      canvas.width = width;
-      canvas.height = height;
-      canvas.getContext("2d")!.putImageData(pixels, 0, 0);
-      canvas.dataset["painted"] = "true";
-    } catch {
-      canvas.dataset["painted"] = "false";
-    }
   }
 }
 
@@ -75,6 +62,18 @@ export function groupsOf(volumes: Volume[]): [string, Volume[]][] {
     groups.set(title, [...(groups.get(title) ?? []), volume]);
   }
   return [...groups];
+}
+
+/** Those of the frame of reference first. */
+export const inOrderOfFrame = (volumes: readonly Volume[], frame: string): Volume[] => [
+  ...volumes.filter(({ frame_of_reference_uid }) => frame_of_reference_uid === frame),
+  ...volumes.filter(({ frame_of_reference_uid }) => frame_of_reference_uid !== frame),
+];
+
+/** How a series lies to the image that it is to be seen over. */
+export function frameWords({ frame_of_reference_uid }: Pick<Volume, "frame_of_reference_uid">, frame: string): string {
+  if (frame_of_reference_uid === "") return "no frame of reference";
+  return frame_of_reference_uid === frame ? "same frame of reference: lies as the image does" : "another frame of reference";
 }
 
 /** What a series is, line by line. */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+import { markedPlaces } from "../model/marks";
 import type { Navigation } from "../model/navigation";
+import type { Opacities } from "../model/opacities";
 import type { Project } from "../model/project";
 import type { Theme } from "../model/theme";
 import type { Http } from "../net/http";
@@ -17,7 +19,7 @@ import { PLANE_COLORS } from "../model/palette";
 import type { Editor } from "../tools/editor";
 import type { SinglePoint } from "../tools/single_points";
 import { BAND_STOPS, bandColors, bandScale, DISTANCE_STOPS, distanceColors } from "./band";
-import { OrientationCube, SIDES } from "./cube";
+import { OrientationCube, SIDES, type ViewAxes } from "./cube";
 import type { Scene, ScenePoint } from "./scene";
 import { SurfaceInput } from "./surface_input";
 
@@ -25,6 +27,7 @@ export interface SurfaceViewServices {
   navigation: Navigation;
   project: Project;
   theme: Theme;
+  opacities: Opacities;
   editor: Editor;
   http: Http;
   failed(error: unknown): void;
@@ -101,6 +104,11 @@ export class SurfaceView {
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
 
+  /** How the cube lies, and where; null where there is no 3D view. */
+  cubePlace(): { axes: ViewAxes; box: DOMRect } | null {
+    return this.scene && !this.cube.element.hidden ? { axes: this.scene.axes, box: this.cube.element.getBoundingClientRect() } : null;
+  }
+
   /** For a picture that is taken in this very task. */
   redraw(): void {
     this.scene?.redraw();
@@ -175,7 +183,7 @@ export class SurfaceView {
       this.fetchesOf(surface.structure).send();
     }
     this.band.hidden = ![...project.surfaces.values()].some(({ uncertainty }) => uncertainty?.known);
-    this.scene.setMarks([...project.surfaces.values()].flatMap((surface) => (surface.conflicts ?? []).map(({ at }) => at)));
+    this.scene.setMarks(markedPlaces(project.surfaces.values()));
     this.restyle();
     this.showHint();
   }
@@ -186,8 +194,9 @@ export class SurfaceView {
   }
 
   restyle(): void {
-    for (const { id, color, visible } of this.services.project.structures.values())
-      this.scene?.style(id, color, visible, id === this.compared?.other ? COMPARED_WITH_OPACITY : this.opacity);
+    const { project, opacities } = this.services;
+    for (const { id, color, visible } of project.structures.values())
+      this.scene?.style(id, color, visible, id === this.compared?.other ? COMPARED_WITH_OPACITY : this.opacity * opacities.of(id));
   }
 
   private hasSurface(structure: number): boolean {

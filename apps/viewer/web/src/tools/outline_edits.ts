@@ -2,12 +2,12 @@
 import { pulled, pullReach } from "../geometry/loop";
 import { gap, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import { sub, type Vec3 } from "../geometry/vec";
-import type { ViewName } from "../net/protocol";
+import type { Origin, ViewName } from "../net/protocol";
 import { Edits } from "./edits";
 import { freeOutlines, nearestOutline, type FreeOutline } from "./free_outlines";
 import { DRAG_PIXELS, type Gesture } from "./gesture";
 import { LINE_PIXELS } from "./hit";
-import { Sketch, type Origin } from "./sketch";
+import { Sketch } from "./sketch";
 
 /** A computed outline that the pointer is on. */
 export interface OutlineHit {

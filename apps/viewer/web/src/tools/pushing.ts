@@ -128,12 +128,12 @@ export class Pushing {
     const at = arcLengths(points);
     const whole = at.at(-1)!;
     const replaced = part ? (at[part.to]! - at[part.from]! + whole) % whole : whole;
-    if (part && (!closed || replaced < NEARLY_HALF * whole)) return { name: "contour.redraw", args: { id, path: world(part.points) } };
-    return { name: "contour.redraw", args: { id, path: world(line), whole: true } };
+    if (part && (!closed || replaced < NEARLY_HALF * whole)) return { name: "contour.redraw", args: { id, path: world(part.points), origin: "pushed" } };
+    return { name: "contour.redraw", args: { id, path: world(line), whole: true, origin: "pushed" } };
   }
 
   private ofOutline(screen: Screen, outline: FreeOutline): Target {
-    const contour = (line: readonly BrushPoint[]) => this.outlines.contour(screen, outline, this.world(screen, outline, line), "pulled");
+    const contour = (line: readonly BrushPoint[]) => this.outlines.contour(screen, outline, this.world(screen, outline, line), "pushed");
     return { points: outline.points, isClosed: true, draft: (line) => this.outlines.draft(contour(line)), make: (line) => this.outlines.add(contour(line)) };
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { coincide, projected, type Plane } from "../geometry/plane";
 import { sub, length, type Vec3 } from "../geometry/vec";
-import type { Contour, ControlPoint, Hand, SketchPoint, StretchKind } from "../net/protocol";
+import type { Contour, ControlPoint, Hand, Origin, SketchPoint, StretchKind } from "../net/protocol";
 
 /** A sketch as it is kept with the project until the next visit. */
 export interface SavedSketch {
@@ -16,9 +16,6 @@ export interface SavedSketch {
   inside?: Hand;
   origin?: Origin;
 }
-
-/** What the history calls the contour by: drawn by hand, or made of a computed outline. */
-export type Origin = "drawn" | "pulled" | "adopted" | "proposed";
 
 const SAVED_DIGITS = 9;
 const SAME_PLACE_MM = 1e-5; // what is saved is rounded

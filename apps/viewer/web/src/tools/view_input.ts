@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-import { toWorld, type Point2, type Screen } from "../geometry/screen";
+import { gap, toWorld, type Point2, type Screen } from "../geometry/screen";
 import { sub } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { ViewName, Window } from "../net/protocol";
 import type { Editor } from "./editor";
 import { fingerPair } from "./finger_pair";
 import { Fingers } from "./fingers";
-import type { Gesture } from "./gesture";
+import { CLICK_PIXELS, type Gesture } from "./gesture";
 import type { Pointers } from "./pointers";
 
 /** What input needs of the view that it comes from. */
 export interface InputView {
   readonly name: ViewName;
   readonly element: HTMLElement;
+  /** Its title, which lies over the slice. */
+  readonly header: HTMLElement;
   /** Where the pointer is heard. */
   readonly overlay: HTMLElement;
   /** Null before the view is laid out. */
@@ -65,6 +67,7 @@ export class ViewInput {
       },
     });
     canvas.addEventListener("pointerdown", (event) => this.down(event));
+    view.header.addEventListener("pointerdown", (event) => this.pressTitle(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.up(event));
     for (const type of ["pointercancel", "lostpointercapture"] as const)
@@ -93,6 +96,25 @@ export class ViewInput {
     const gesture = this.release();
     gesture?.cancel?.();
     return gesture !== null;
+  }
+
+  /** A stroke may begin on the title; a click there stays the title's. */
+  private pressTitle(press: PointerEvent): void {
+    if (press.target instanceof Element && press.target.closest("button")) return;
+    const end = () => {
+      window.removeEventListener("pointermove", follow);
+      window.removeEventListener("pointerup", end);
+      window.removeEventListener("pointercancel", end);
+    };
+    const follow = (event: PointerEvent) => {
+      if (event.pointerId !== press.pointerId || gap(this.view.pointOf(press), this.view.pointOf(event)) <= CLICK_PIXELS) return;
+      end();
+      this.down(press);
+      this.move(event);
+    };
+    window.addEventListener("pointermove", follow);
+    window.addEventListener("pointerup", end);
+    window.addEventListener("pointercancel", end);
   }
 
   private down(event: PointerEvent): void {

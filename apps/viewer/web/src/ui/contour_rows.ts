@@ -2,6 +2,7 @@
 import type { Vec3 } from "../geometry/vec";
 import { between, groupsOf, isGrouped } from "../model/contour_list";
 import type { Navigation } from "../model/navigation";
+import type { Opacities } from "../model/opacities";
 import type { Project } from "../model/project";
 import type { Maker } from "../net/calls";
 import type { Contour, Structure, ViewName } from "../net/protocol";
@@ -17,6 +18,7 @@ export interface RowServices {
   project: Project;
   call: Maker;
   points: SinglePoints;
+  opacities: Opacities;
   goTo(p: Vec3): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */
   show(contour: InPlane): void;

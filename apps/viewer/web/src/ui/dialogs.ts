@@ -5,6 +5,7 @@ import type { Editor } from "../tools/editor";
 import { button, buttonPiece, el } from "../dom/dom";
 import { download } from "./download";
 import { ICONS } from "../dom/icons";
+import { LabelTable } from "./label_table";
 import { render } from "../dom/pieces";
 
 /** A modal window; Esc and a click beside it close it. */
@@ -76,6 +77,8 @@ export interface ExportServices {
   snapshot(): Promise<Blob>;
   project: Project;
   editor: Editor;
+  /** Throws where the server refuses. */
+  setLabel(structure: number, value: number | "automatic"): Promise<void>;
 }
 
 /** What a user may believe to be in the file, and is not. */
@@ -87,7 +90,7 @@ function missing({ drawing }: Editor): HTMLElement[] {
   return [el("p", { class: "warning-text", "data-test": "export-missing" }, `${what}: no export contains it.`)];
 }
 
-export function openExport({ http, project, editor, hasDicom, snapshot }: ExportServices): void {
+export function openExport({ http, project, editor, hasDicom, snapshot, setLabel }: ExportServices): void {
   const structure = el("select", { title: "Structure to export", "data-test": "export-structure" });
   for (const { id, name } of project.structures.values())
     structure.append(el("option", { value: String(id), selected: id === project.activeStructure?.id }, name));
@@ -130,6 +133,7 @@ export function openExport({ http, project, editor, hasDicom, snapshot }: Export
     el("h3", {}, "All structures at once"),
     el("div", { class: "choices" }, ...files.map(([name, label, extension]) => entry(name, label, extension, () => null))),
   );
+  const labels = new LabelTable({ project, setLabel, failed: (sentence) => render(status, [sentence]) });
   const whole = el(
     "div",
     { class: "export-group" },
@@ -145,12 +149,16 @@ export function openExport({ http, project, editor, hasDicom, snapshot }: Export
     "export-dialog",
     ...missing(editor),
     all,
+    labels.element,
     el("label", { class: "field" }, "One structure", structure),
     ...groups,
     whole,
     status,
   );
-  dialog.addEventListener("close", () => running?.abort());
+  dialog.addEventListener("close", () => {
+    running?.abort();
+    labels.close();
+  });
 }
 
 /** Shown once per project. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Http } from "../net/http";
-import type { ImportEndings, ImportReply, NearDrawing } from "../net/protocol";
+import { volumeText } from "../model/volumes";
+import type { ImportEndings, ImportReply, NearDrawing, TracedMask } from "../net/protocol";
 import { openDialog } from "./dialogs";
 import { button, el } from "../dom/dom";
 import { accepted, importKind, sentence } from "./endings";
@@ -42,16 +43,19 @@ export function openImport(services: ImportServices, near: readonly NearDrawing[
 
 /** What others have drawn on the image, by a file near it. */
 export function importNear({ file, name, modality }: NearDrawing, services: ImportServices): void {
-  const go = (options: Options) => void send(name, (more, signal) => services.http.importNear(file, more, signal), options, services);
-  if (modality === "SEG") openTracing(name, go);
-  else go({});
+  const ask: Ask = (options, signal) => services.http.importNear(file, options, signal);
+  if (modality === "SEG") openTracing(name, ask, services);
+  else void send(name, ask, {}, services);
 }
 
 export async function importFile(file: File, services: ImportServices): Promise<void> {
   const kind = importKind(file.name, services.endings);
-  const go = (what: "contours" | "mask") => (options: Options) => sendFile(what, file, options, services);
-  if (kind === "mask" || (kind === "contours" && (await isSegmentation(file)))) openTracing(file.name, go(kind));
-  else if (kind === "contours") go("contours")({});
+  const ask =
+    (what: "contours" | "mask"): Ask =>
+    (options, signal) =>
+      services.http.import(what, file, options, signal);
+  if (kind === "mask" || (kind === "contours" && (await isSegmentation(file)))) openTracing(file.name, ask(kind), services);
+  else if (kind === "contours") void send(file.name, ask("contours"), {}, services);
   else services.failed(new Error(`${file.name}: ${sentence(services.endings)}`));
 }
 
@@ -61,25 +65,35 @@ async function isSegmentation(file: File): Promise<boolean> {
   return SEGMENTATION_STORAGE.test(await file.slice(0, 4096).text());
 }
 
-/** Asks where voxels are to be cut into contours. */
-function openTracing(name: string, trace: (options: Options) => void): void {
+/** Asks where voxels are to be cut into contours, and shows what these would keep of them. */
+function openTracing(name: string, ask: Ask, services: ImportServices): void {
   const axes = el(
     "select",
-    { title: "Directions of the planes" },
+    { title: "Directions of the planes", "data-test": "mask-axes", on: { change: () => preview.forget() } },
     el("option", { value: "axial,sagittal,coronal" }, "axial, sagittal and coronal"),
     el("option", { value: "axial" }, "axial only"),
   );
   const confirm = () => {
     if (!planes.reportValidity()) return;
     dialog.close();
-    trace({ axes: axes.value, planes: planes.value });
+    void send(name, ask, wanted(), services);
   };
+  const wanted = () => ({ axes: axes.value, planes: planes.value });
+  const preview = new TracingPreview((signal) => ask({ ...wanted(), preview: "1" }, signal));
   const onEnter = (event: KeyboardEvent) => {
     if (event.key !== "Enter") return;
     event.preventDefault(); // or it presses the button that has the focus once the dialog is closed
     confirm();
   };
-  const planes = el("input", { type: "number", min: "1", max: "200", value: "9", required: "", class: "number", on: { keydown: onEnter } });
+  const planes = el("input", {
+    type: "number",
+    min: "1",
+    max: "200",
+    value: "9",
+    required: "",
+    class: "number",
+    on: { keydown: onEnter, input: () => preview.forget() },
+  });
   const go = button({
     label: "Trace into contours",
     title: "Import it",
@@ -93,16 +107,60 @@ function openTracing(name: string, trace: (options: Options) => void): void {
     el("p", {}, "Each label or segment becomes a structure, drawn by contours on planes through it."),
     el("label", { class: "field" }, "Planes", axes),
     el("label", { class: "field" }, "Planes along each axis", planes),
-    el("div", { class: "dialog-buttons" }, go),
+    preview.element,
+    el(
+      "div",
+      { class: "dialog-buttons" },
+      button({
+        label: "Preview",
+        title: "Say what these planes keep of the voxels; nothing is imported",
+        class: "choice",
+        test: "import-preview",
+        click: () => void (planes.reportValidity() && preview.show()),
+      }),
+      go,
+    ),
   );
+  dialog.addEventListener("close", () => preview.forget());
+}
+
+const LITTLE_KEPT = 0.9; // Dice: below it the difference is seen at a glance
+
+/** What contours make of masks again. */
+class TracingPreview {
+  readonly element = el("div", { class: "tracing-preview", role: "status", "data-test": "tracing-preview" });
+  private running: AbortController | null = null;
+
+  constructor(private readonly ask: (signal: AbortSignal) => Promise<ImportReply>) {}
+
+  /** What is asked is not of interest any more. */
+  forget(): void {
+    this.running?.abort();
+    this.running = null;
+    this.element.replaceChildren();
+  }
+
+  async show(): Promise<void> {
+    this.forget();
+    const own = (this.running = new AbortController());
+    this.element.append("Fitting surfaces to these contours …");
+    try {
+      const { traced = [], notes } = await this.ask(own.signal);
+      if (this.running === own) this.element.replaceChildren(...traced.map(keptLine), ...notes.map((note) => el("p", {}, note)));
+    } catch (error) {
+      if (this.running === own) this.element.replaceChildren(el("p", { class: "warning-text" }, error instanceof Error ? error.message : String(error)));
+    }
+  }
+}
+
+function keptLine({ name, volume_ml, traced_ml, dice }: TracedMask): HTMLElement {
+  const text = `${name}: ${volumeText(volume_ml)} in the file, ${volumeText(traced_ml)} from these contours; the two agree to ${dice.toFixed(3)} (Dice).`;
+  const more = " More planes keep more of it.";
+  return el("p", { class: dice < LITTLE_KEPT ? "warning-text" : "kept" }, dice < LITTLE_KEPT ? text + more : text);
 }
 
 type Options = Record<string, string>;
 type Ask = (options: Options, signal: AbortSignal) => Promise<ImportReply>;
-
-function sendFile(what: "contours" | "mask", file: File, options: Options, services: ImportServices): void {
-  void send(file.name, (more, signal) => services.http.import(what, file, more, signal), options, services);
-}
 
 async function send(name: string, ask: Ask, options: Options, services: ImportServices): Promise<void> {
   const abort = new AbortController();

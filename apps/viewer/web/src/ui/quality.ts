@@ -2,16 +2,19 @@
 import { coincide } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import { lengthText } from "../model/lengths";
+import { volumeText } from "../model/volumes";
 import type { Navigation } from "../model/navigation";
 import type { Maker } from "../net/calls";
 import type { Conflict, Contour, NearLines, Surface } from "../net/protocol";
 import { distinct, settled } from "../tools/settling";
 import { contourName } from "./contour_names";
+import { faultEntries } from "./faults";
 import { buttonPiece } from "../dom/dom";
 import { ICONS } from "../dom/icons";
 import { piece, type Piece } from "../dom/pieces";
 
 const SAME_PLANE_MM = 0.01;
+const RIGHT_LINES = "The band and the expected Dice are of what lies between the lines. Lines that miss the border are not found out by them.";
 
 /** What is done about what is seen. */
 export interface QualityServices {
@@ -40,10 +43,11 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   }
   const entries: Piece[] = [];
   const guess = depthGuess(contours);
-  if (surface.volume_ml !== undefined) entries.push(figure(guess ? "Volume (a guess)" : "Volume", `${volume(surface.volume_ml)} ml`, guess !== null));
+  if (surface.volume_ml !== undefined) entries.push(figure(guess ? "Volume (a guess)" : "Volume", volumeText(surface.volume_ml), guess !== null));
   if (guess) entries.push(piece("p", { class: "warning-text", "data-test": "depth-guess" }, guess));
+  entries.push(...troubles(surface, contours, services));
   if (surface.uncertainty) {
-    entries.push(piece("p", { class: "certainty", "data-test": "certainty" }, surface.uncertainty.text));
+    entries.push(piece("p", { class: "certainty", "data-test": "certainty", title: RIGHT_LINES }, certaintyText(surface.uncertainty)));
     entries.push(
       buttonPiece({
         label: "Where to draw next",
@@ -74,6 +78,7 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
         }),
       );
   }
+  entries.push(...edgesBeside(surface, contours, services));
   if (surface.stage === "asking") entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, "The image is being asked …"));
   else if (surface.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(surface.image.text)));
   const { residual } = surface;
@@ -85,16 +90,32 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
       ),
     );
   }
-  return [...entries, ...troubles(surface, contours, services)];
+  return entries;
 }
 
-function troubles({ conflicts = [], warnings = [], sides = [], near_lines = [] }: Surface, contours: Contour[], services: QualityServices): Piece[] {
+function troubles(
+  { conflicts = [], faults = [], warnings = [], sides = [], near_lines = [] }: Surface,
+  contours: Contour[],
+  services: QualityServices,
+): Piece[] {
   return [
     ...warnings.map((text) => piece("p", { class: "warning-text" }, text)),
     ...sides.flatMap(({ contour, sure }) => (sure ? [] : doubtfulSides(contour, contours, services))),
     ...near_lines.flatMap((pair) => nearLines(pair, contours, services)),
+    ...faultEntries(faults, contours, services),
     ...distinct(conflicts).map((conflict) => conflictEntry(conflict, contours, services)),
   ];
+}
+
+/** The image may show that lines are not on the border, which nothing else here can. */
+function edgesBeside({ edges_beside: found = [] }: Surface, contours: Contour[], { navigation, show }: QualityServices): Piece[] {
+  const [farthest] = found;
+  const line = contours.find(({ id }) => id === farthest?.contour);
+  if (!farthest || !line) return [];
+  const where = `${lengthText(Math.abs(farthest.offset_mm))} ${farthest.offset_mm < 0 ? "inside" : "outside"} of ${contourName(line, navigation)}`;
+  const others = found.length > 1 ? `, and beside ${found.length - 1} more` : "";
+  const title = "Show the line: if the strong edge is the border, the line is beside it, and volume and expected Dice are too";
+  return [place(`Strong edges run ${where}${others}`, title, "edges-beside", () => show(line))];
 }
 
 /** Two lines of one plane that may be one, drawn twice, or the two sides of a thin wall: how they were read. */
@@ -148,7 +169,12 @@ function selfCrossings(contours: Contour[], services: QualityServices): Piece[] 
   return places.map((at) => place("a contour crosses itself", "Go to where it crosses itself", "self-crossing", () => services.goTo(at)));
 }
 
-function place(label: string, title: string, kind: "residual" | "conflict" | "near-lines" | "self-crossing" | "side", click: () => void): Piece {
+function place(
+  label: string,
+  title: string,
+  kind: "residual" | "conflict" | "near-lines" | "self-crossing" | "side" | "edges-beside",
+  click: () => void,
+): Piece {
   return buttonPiece({
     label,
     icon: kind === "residual" ? ICONS.lines : ICONS.warning,
@@ -161,14 +187,15 @@ function place(label: string, title: string, kind: "residual" | "conflict" | "ne
 
 const asSentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
 
-const volume = (ml: number): string => (ml >= 100 ? ml.toFixed(0) : ml.toPrecision(3));
-
 /** What no line says of the object that these contours make; null where they say enough. */
 function depthGuess(contours: readonly Contour[]): string | null {
   const [first] = contours;
   if (!first || !contours.every(({ plane }) => coincide(plane, first.plane, SAME_PLANE_MM))) return null;
   return `${contours.length === 1 ? "One contour" : "All contours lie in one plane"}: the depth is a guess. Draw another one across, or on another slice.`;
 }
+
+/** It says how well lines are followed, not whether they are on the border. */
+const certaintyText = ({ known, text }: { known: boolean; text: string }): string => (known ? `If the lines are right: ${text}` : text);
 
 const figure = (label: string, value: string, isGuess = false): Piece =>
   piece("div", { class: isGuess ? "figure guess" : "figure" }, piece("span", {}, label), piece("strong", {}, value));

@@ -3,6 +3,7 @@ import type { Vec3 } from "../geometry/vec";
 import type { Http } from "../net/http";
 import type { SecondStatistics, Statistics, StructureStatistics } from "../net/protocol";
 import { comparison } from "./comparison";
+import { csv } from "./csv";
 import { openDialog } from "./dialogs";
 import { button, el } from "../dom/dom";
 import { download } from "./download";
@@ -54,13 +55,9 @@ export function columns({ unit, second }: Pick<Statistics, "unit" | "second">): 
   ];
 }
 
-/** As RFC 4180 has it. */
 export function asCsv({ structures, ...images }: Statistics): string {
-  const field = (value: string | number) => (typeof value === "number" ? String(value) : /[",\r\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value);
   const shown = columns(images);
-  return [shown.map(({ head }) => field(head)), ...structures.map((row) => shown.map(({ value }) => field(value(row))))]
-    .map((line) => line.join(",") + "\r\n")
-    .join("");
+  return csv([shown.map(({ head }) => head), ...structures.map((row) => shown.map(({ value }) => value(row)))]);
 }
 
 /** Measures all structures anew, as `kontur segment` makes them. */

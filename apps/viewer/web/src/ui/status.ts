@@ -3,6 +3,8 @@ import type { ConnectionState } from "../net/socket";
 import type { Notice } from "../net/protocol";
 import type { Remedy } from "../tools/services";
 import { button, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { copyText } from "./copying";
 
 /** The line at the bottom: cursor, what to do next, what is computed, whether all is saved. */
 export class StatusBar {
@@ -13,17 +15,33 @@ export class StatusBar {
   private readonly bar = el("progress", { max: 1, hidden: true });
   private readonly saved = el("span", { class: "saved", "data-test": "saved" });
   private project = "";
+  private path = "";
+  private readonly copy = button({
+    icon: ICONS.copy,
+    title: "Copy the place of the project",
+    class: "icon-button small",
+    test: "copy-path",
+    click: () => void this.copyPath(),
+  });
   private isReadOnly = false;
   private workTimer = 0;
 
   constructor() {
-    this.element.append(this.cursor, this.hint, this.bar, this.work, this.saved);
+    this.element.append(this.cursor, this.hint, this.bar, this.work, this.saved, this.copy);
+    this.copy.hidden = true;
     this.work.setAttribute("aria-live", "polite");
   }
 
-  start(project: string, isReadOnly: boolean): void {
+  start(project: string, path: string, isReadOnly: boolean): void {
     this.project = project;
+    this.path = path;
+    this.saved.title = path;
+    this.copy.hidden = false;
     this.isReadOnly = isReadOnly;
+  }
+
+  private async copyPath(): Promise<void> {
+    this.setHint((await copyText(this.path)) ? `Copied: ${this.path}` : `The browser lets this page copy nothing. The project lies at ${this.path}`);
   }
 
   setCursor(text: string): void {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { isOpenByItself } from "../model/contour_list";
+import { LEAST_OPACITY } from "../model/opacities";
 import type { Contour, Structure } from "../net/protocol";
 import { contourName } from "./contour_names";
 import { ContourRows, type RowServices } from "./contour_rows";
@@ -7,6 +8,7 @@ import { buttonPiece, el, eye } from "../dom/dom";
 import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "../dom/icons";
 import { piece, render, type Piece } from "../dom/pieces";
+import { keepSliderKeys } from "./second_image_card";
 import { singlePointRows } from "./single_points";
 
 const MOST_UNFILTERED = 24; // rows that are found by eye
@@ -29,7 +31,8 @@ export class StructureList {
   private readonly opened = new Map<number, boolean>();
   private readonly rows: ContourRows;
   private renamed: number | null = null;
-  private selected: number | undefined;
+  private followed: Element | null = null;
+  private inSight: { active: number; newest: number; selected: number | undefined } = { active: 0, newest: 0, selected: undefined };
 
   constructor(
     private readonly services: RowServices,
@@ -37,6 +40,8 @@ export class StructureList {
     private readonly refresh: () => void,
   ) {
     this.rows = new ContourRows(services, this.element, refresh);
+    new ResizeObserver(() => this.keepInSight()).observe(this.element);
+    this.element.addEventListener("wheel", () => void (this.followed = null), { passive: true }); // the user looks elsewhere
   }
 
   update(): void {
@@ -44,7 +49,7 @@ export class StructureList {
     this.filter.hidden = project.structures.size + project.contours.size <= MOST_UNFILTERED && this.filter.value === "";
     const entries = [...project.structures.values()].filter((structure) => this.isWanted(structure)).map((structure) => this.entry(structure));
     render(this.element, [...entries, ...this.nothing(entries.length)]);
-    if (this.selected !== project.selection?.contour) this.showSelected();
+    this.follow();
   }
 
   private nothing(entries: number): Piece[] {
@@ -53,9 +58,26 @@ export class StructureList {
     return entries === 0 ? [piece("p", { class: "empty" }, "No structure and no contour is called so.")] : [];
   }
 
-  private showSelected(): void {
-    this.selected = this.services.project.selection?.contour;
-    this.element.querySelector(`.contour-row[data-contour="${this.selected}"]`)?.scrollIntoView({ block: "nearest" });
+  /** Brings into sight what has been drawn or selected, or else the structure that is drawn in, when that becomes another. */
+  private follow(): void {
+    const { project } = this.services;
+    const active = project.activeStructure?.id ?? 0;
+    const newest = Math.max(0, ...project.contoursOf(active).map(({ id }) => id));
+    const selected = project.selection?.contour;
+    const before = this.inSight;
+    this.inSight = { active, newest, selected };
+    const isSame = before.active === active && before.newest === newest && before.selected === selected;
+    if (isSame) return;
+    const contour = selected !== undefined && selected !== before.selected ? selected : newest > before.newest ? newest : undefined;
+    const row = contour === undefined ? null : this.element.querySelector(`.contour-row[data-contour="${contour}"]`);
+    const target = row ?? this.element.querySelector(`.structure[data-structure="${active}"] > .structure-row`);
+    this.followed = target;
+    target?.scrollIntoView({ block: "nearest" });
+  }
+
+  /** What was brought into sight stays there when the figures below grow; nothing moves beneath the pointer. */
+  private keepInSight(): void {
+    if (!this.element.matches(":hover")) this.followed?.scrollIntoView({ block: "nearest" });
   }
 
   private get wanted(): string {
@@ -98,7 +120,41 @@ export class StructureList {
       structure.id === this.renamed ? this.nameField(structure) : this.nameLabel(structure, isActive),
       ...this.buttons(structure),
     );
-    return piece("div", { key: structure.id, class: "structure", "data-structure": structure.id }, row, ...this.listOf(structure));
+    return piece(
+      "div",
+      { key: structure.id, class: "structure", "data-structure": structure.id },
+      row,
+      isActive ? this.look(structure) : null,
+      ...this.listOf(structure),
+    );
+  }
+
+  /** How the active one is seen among the others. */
+  private look({ id, name }: Structure): Piece {
+    const { project, opacities, call } = this.services;
+    const isOne = project.structures.size < 2;
+    const isAlone = !isOne && [...project.structures.values()].every((one) => one.visible === (one.id === id));
+    const only = buttonPiece({
+      label: isAlone ? "Show all" : "Show only this",
+      title: isAlone ? "Show all structures again" : `Hide all structures but ${name}`,
+      class: "choice",
+      test: "show-only",
+      more: { disabled: isOne },
+      click: () => call("structure.show_only", { id }),
+    });
+    const opacity = piece("input", {
+      key: "opacity",
+      type: "range",
+      min: String(LEAST_OPACITY),
+      max: "1",
+      step: "0.05",
+      value: String(opacities.of(id)),
+      title: `Opacity of ${name} in 3D`,
+      "aria-label": `Opacity of ${name} in 3D`,
+      "data-test": "structure-opacity",
+      on: { input: ({ currentTarget }) => opacities.set(id, currentTarget.valueAsNumber), keydown: keepSliderKeys },
+    });
+    return piece("div", { key: "look", class: "structure-look" }, only, opacity);
   }
 
   private listOf(structure: Structure): Piece[] {

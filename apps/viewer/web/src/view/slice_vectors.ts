@@ -3,6 +3,7 @@ import { areParallel, coincide, type PixelPlane } from "../geometry/plane";
 import { depthBelow, planeOf, toScreen, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
 import type { SavedAppearance } from "../model/appearance";
+import { markedPlaces } from "../model/marks";
 import { measured } from "../model/measurements";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
@@ -62,8 +63,8 @@ export class SliceVectors {
   private paintRings(painter: OverlayPainter, screen: Screen): void {
     const { project, navigation } = this.services;
     const crossings = project.shownContours().flatMap((contour) => contour.self_crossings);
-    const conflicts = [...project.surfaces.values()].flatMap((surface) => surface.conflicts ?? []).map(({ at }) => at);
-    for (const at of [...crossings, ...conflicts]) if (Math.abs(depthBelow(screen, at)) < navigation.step(this.name)) painter.conflict(at);
+    for (const at of [...crossings, ...markedPlaces(project.surfaces.values())])
+      if (Math.abs(depthBelow(screen, at)) < navigation.step(this.name)) painter.conflict(at);
   }
 
   private crossingColor(contour: number, screen: Screen): string | null {

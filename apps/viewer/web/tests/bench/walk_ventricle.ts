@@ -14,7 +14,7 @@ if (!existsSync(data)) {
   console.log(`skipped: there is no ${data}`);
   process.exit(0);
 }
-const END_DIASTOLE = "1"; // frame
+const END_DIASTOLE = "2"; // frame
 const folder = temporaryFolder();
 const browser = await launch();
 try {

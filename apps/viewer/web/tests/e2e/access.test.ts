@@ -18,6 +18,15 @@ interface Violation {
 
 /** What axe finds wrong by WCAG 2.0 to 2.2, A and AA. */
 async function violations(): Promise<string[]> {
+  // Half way through a change of colours there may be too little contrast.
+  await viewer.page.evaluate(() =>
+    Promise.allSettled(
+      document
+        .getAnimations()
+        .filter((one) => one instanceof CSSTransition)
+        .map((one) => one.finished),
+    ),
+  );
   await viewer.page.evaluate(AXE); // not by a script element, which the page's policy refuses
   const found = await viewer.page.evaluate(async () => {
     const { axe } = window as unknown as { axe: { run: (options: object) => Promise<{ violations: Violation[] }> } };

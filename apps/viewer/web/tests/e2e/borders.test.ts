@@ -100,7 +100,7 @@ beforeEach(async () => {
     await draw(-1, place === 0 ? RADIUS_MM : 30);
     if (place < 1) await scroll(APART_MM / 4);
   }
-  await page.click("[data-test=add-structure]");
+  await viewer.addStructure();
   await page.locator(".structure-row.active", { hasText: "Structure 2" }).waitFor();
   for (const place of [1, 0, -1]) {
     await draw(1, place === 0 ? RADIUS_MM : 30);

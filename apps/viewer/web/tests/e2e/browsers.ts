@@ -31,7 +31,7 @@ export function launch(wish: Wish = { webgl: true }): Promise<Browser> {
 /** As Chromium does where there is no graphics processor: WebGL in software, and the page itself without it. */
 function launchChromium({ webgl }: Wish): Promise<Browser> {
   const args = webgl ? ["--enable-unsafe-swiftshader"] : ["--disable-gpu", "--disable-software-rasterizer"];
-  return chromium.launch({ executablePath: process.env["KONTUR_CHROMIUM"] ?? "/usr/bin/chromium", args });
+  return chromium.launch({ executablePath: process.env["KONTUR_CHROMIUM"] ?? "/usr/bin/chromium-headless-shell", args });
 }
 
 /** As it is, by WebDriver BiDi. Without a window Firefox has no WebGL, so it gets a screen of its own. */

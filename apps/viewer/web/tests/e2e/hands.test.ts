@@ -125,7 +125,7 @@ describe("the keyboard", () => {
 describe("the list of structures", () => {
   test("shows at once which one a click made active; the name is typed after a double click only", async () => {
     const { page } = viewer;
-    await page.click("[data-test=add-structure]");
+    await viewer.addStructure();
     await page.waitForSelector(".structure:nth-child(2) .structure-row.active");
     await page.locator(".structure-row button.name").nth(0).click();
     await page.waitForSelector(".structure:nth-child(1) .structure-row.active");
@@ -143,7 +143,7 @@ describe("the list of structures", () => {
     await viewer.doubleClick(page.locator(".structure-row button.name"));
     await page.keyboard.type("Ki");
     const other = await Viewer.open(visits.browser, visits.server.address);
-    await other.page.click("[data-test=add-structure]");
+    await other.addStructure();
     await other.page.close();
     await page.waitForSelector(".structure:nth-child(2)");
     await page.keyboard.type("dney");

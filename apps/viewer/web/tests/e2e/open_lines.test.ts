@@ -159,7 +159,7 @@ test("an end is dragged, the gap is not taken for the line, and a stroke leads i
     [0, -radius + 20],
     [0, -radius + 14],
   ]);
-  await viewer.waitForStep("undo", "Redraw a part");
+  await viewer.waitForStep("undo", "Push a contour");
   assert.equal(await open().count(), 1);
   assert.deepEqual(viewer.complaints, []);
 });

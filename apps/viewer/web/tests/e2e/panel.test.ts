@@ -22,7 +22,7 @@ async function meanwhile(act: (other: Viewer) => Promise<void>): Promise<void> {
   await other.page.close();
 }
 
-const addStructure = () => meanwhile((other) => other.page.click("[data-test=add-structure]"));
+const addStructure = () => meanwhile((other) => other.addStructure());
 const row = (structure: number) => viewer.page.locator(".structure").nth(structure);
 
 test("a name half typed stays, and so does the place in it, while the rest of its row follows", async () => {

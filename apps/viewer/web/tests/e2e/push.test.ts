@@ -33,7 +33,7 @@ describe("the brush", () => {
       [edge - 15, 0],
       [edge - 5, 0],
     ]);
-    await viewer.waitForStep("undo", "Redraw a part");
+    await viewer.waitForStep("undo", "Push a contour");
     await viewer.saved();
     const mm = BALL_RADIUS_MM / edge;
     const [after] = await contours();
@@ -66,7 +66,7 @@ describe("the brush", () => {
       [edge, 0],
       [edge - 6, 0],
     ]);
-    await viewer.waitForStep("undo", "Redraw a part");
+    await viewer.waitForStep("undo", "Push a contour");
     await viewer.saved();
     const [after] = await contours();
     const dent = Math.max(...after!.filter(([, y]) => Math.abs(y + 1) < 1.5).map(([x]) => x)); // the view's middle lies at y = -1

@@ -49,11 +49,28 @@ export const SHEARED: Steps = [
 
 /** A NIfTI image of 96 x 80 x 40 voxels with a ball of 100 in the middle of space, in a little noise; with several radii as many frames. */
 export function writeBallImage(path: string, steps: Steps = STRAIGHT, ...radii_mm: number[]): void {
+  let seed = 1;
+  const noise = () => (seed = (seed * 16807) % 2147483647) % 21;
   const radii = radii_mm.length > 0 ? radii_mm : [BALL_RADIUS_MM];
+  writeFrames(
+    path,
+    steps,
+    radii.map((radius) => (place) => (Math.hypot(...place) < radius ? 100 : 0) + noise()),
+  );
+}
+
+type Value = (place: [number, number, number]) => number;
+
+/** Of the same voxels, with values by places in mm (RAS). */
+export function writeImage(path: string, value: Value): void {
+  writeFrames(path, STRAIGHT, [value]);
+}
+
+function writeFrames(path: string, steps: Steps, frames: readonly Value[]): void {
   const size = [96, 80, 40] as const;
-  const file = Buffer.alloc(352 + 2 * size[0] * size[1] * size[2] * radii.length);
+  const file = Buffer.alloc(352 + 2 * size[0] * size[1] * size[2] * frames.length);
   file.writeInt32LE(348, 0);
-  [radii.length > 1 ? 4 : 3, ...size, radii.length, 1, 1, 1].forEach((value, i) => file.writeInt16LE(value, 40 + 2 * i));
+  [frames.length > 1 ? 4 : 3, ...size, frames.length, 1, 1, 1].forEach((value, i) => file.writeInt16LE(value, 40 + 2 * i));
   file.writeInt16LE(4, 70); // 16-bit integers
   file.writeInt16LE(16, 72);
   [1, ...steps.map((step) => Math.hypot(...step))].forEach((value, i) => file.writeFloatLE(value, 76 + 4 * i));
@@ -66,15 +83,13 @@ export function writeBallImage(path: string, steps: Steps = STRAIGHT, ...radii_m
     file.writeFloatLE(first[axis]!, 280 + 16 * axis + 12);
   });
   file.write("n+1\0", 344);
-  let seed = 1;
-  const noise = () => (seed = (seed * 16807) % 2147483647) % 21;
   let at = 352;
-  for (const radius_mm of radii)
+  for (const value of frames)
     for (let k = 0; k < size[2]; ++k)
       for (let j = 0; j < size[1]; ++j)
         for (let i = 0; i < size[0]; ++i) {
           const place = first.map((from, axis) => from + i * steps[0][axis]! + j * steps[1][axis]! + k * steps[2][axis]!);
-          file.writeInt16LE((Math.hypot(...place) < radius_mm ? 100 : 0) + noise(), at);
+          file.writeInt16LE(value(place as [number, number, number]), at);
           at += 2;
         }
   writeFileSync(path, file);
@@ -305,9 +320,9 @@ export class Viewer {
     const isShown = () => {
       const panel = document.querySelector<HTMLElement>(".panel")!.dataset;
       if (panel["stage"] !== "finished") return false;
-      const revision = `:${panel["revision"]}`;
+      const wanted = `${panel["structure"]}:${panel["revision"]}`; // of the structure that is drawn in
       const panes = [...document.querySelectorAll<HTMLElement>(".pane")].filter((pane) => pane.dataset["webgl"] !== "no");
-      return panes.every((pane) => pane.dataset["revisions"]?.endsWith(revision));
+      return panes.every((pane) => pane.dataset["revisions"]?.split(" ").includes(wanted));
     };
     const state = () => [".panel", ".pane"].flatMap((kind) => [...document.querySelectorAll<HTMLElement>(kind)].map(({ dataset }) => ({ ...dataset })));
     await this.page.waitForFunction(isShown).catch(async (error: Error) => {
@@ -337,6 +352,18 @@ export class Viewer {
     await this.doubleClick(this.page.locator(".structure-row button.name").nth(structure));
     await this.page.keyboard.type(name);
     await this.page.keyboard.press("Enter");
+  }
+
+  /** Adds a structure, which is drawn in from then on; without a name it keeps the one that the page gives it. */
+  async addStructure(name?: string): Promise<void> {
+    const { page } = this;
+    const before = await page.locator(".structure").count();
+    await page.click("[data-test=add-structure]");
+    await page.waitForFunction((count) => document.querySelectorAll(".structure").length > count, before);
+    await page.waitForFunction(() => document.activeElement?.matches(".structure-row.active input.name"));
+    if (name !== undefined) await page.keyboard.type(name);
+    await page.keyboard.press(name === undefined ? "Escape" : "Enter");
+    await page.locator(".structure-row.active button.name", name === undefined ? {} : { hasText: name }).waitFor();
   }
 
   /** Imports by the dialog, and the file chooser that a click on its field opens. */
@@ -379,6 +406,18 @@ export class Viewer {
   async countPixels(view: string, isWanted: (r: number, g: number, b: number) => boolean): Promise<number> {
     const { colors } = await this.decoded(await this.pane(view).screenshot());
     return colors.filter((color) => isWanted(color & 255, (color >> 8) & 255, (color >> 16) & 255)).length;
+  }
+
+  /** The same once two counts agree, or after ten: a frame comes when there is time for it. */
+  async countPixelsAtRest(view: string, isWanted: (r: number, g: number, b: number) => boolean): Promise<number> {
+    let last = await this.countPixels(view, isWanted);
+    for (let n = 0; n < 10; ++n) {
+      await this.page.waitForTimeout(500);
+      const count = await this.countPixels(view, isWanted);
+      if (count === last) break;
+      last = count;
+    }
+    return last;
   }
 
   /** A PNG's pixels row by row, red in the lowest byte. */

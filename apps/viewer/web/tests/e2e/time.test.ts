@@ -19,7 +19,7 @@ before(async () => {
   writeBallImage(path, undefined, ...RADII_MM);
   browser = await launch();
   writeBallImage(join(folder.path, "smaller.nii"), undefined, ...RADII_MM.map((radius) => radius - 10));
-  server = await Server.startAt({ HOME: folder.path }, folder.path, path, "--frame", "1");
+  server = await Server.startAt({ HOME: folder.path }, folder.path, path, "--frame", "2");
   viewer = await Viewer.open(browser, server.address);
   await viewer.closeHint();
 });
@@ -156,7 +156,7 @@ describe("an image of several frames", () => {
     await page.click("[data-test=add-image]");
     await page.locator('.add-image [data-test=entries] button[title$="/smaller.nii"]').click();
     await page.locator("[data-test=add-image-problem]", { hasText: "has 4 frames" }).waitFor();
-    await viewer.type(page.locator(".add-image [data-test=frame]"), "1");
+    await viewer.type(page.locator(".add-image [data-test=frame]"), "2");
     await page.keyboard.press("Enter");
     await page.waitForSelector(".add-image", { state: "detached" });
     await page.keyboard.press("i"); // it alone: a ball that is 10 mm smaller than the first one's

@@ -120,7 +120,7 @@ describe("a contour that was closed", () => {
     await clickSpline();
     await server.end("SIGKILL");
     await saved("lost");
-    await notice("at the address that it prints then").waitFor();
+    await notice("the address that it prints then").waitFor();
     await page.keyboard.press("Enter");
     await notice("is not saved").waitFor();
     assert.ok((await notice("is not saved").textContent())!.includes(`--port ${server.port} --token ${server.token}`), "as it is started again below");
@@ -128,7 +128,7 @@ describe("a contour that was closed", () => {
     assert.ok(await hasSketch());
     await restart();
     await saved("unsaved");
-    assert.equal(await notice("at the address that it prints then").count(), 0);
+    assert.equal(await notice("the address that it prints then").count(), 0);
     assert.equal(await notice("is not saved").count(), 1);
     await page.keyboard.press("Enter");
     await viewer.waitForContours(1);

@@ -105,6 +105,7 @@ describe("the start page", () => {
     rows: 512,
     patient_name: "Doe, Jane",
     patient_id: "7",
+    frame_of_reference_uid: "1.2.3",
     study_date: "2026-11-23",
     study_description: "",
     series_number: "3",

@@ -41,6 +41,8 @@ export function session(changes: Partial<Session> = {}): Session {
     version: "1",
     title: "image",
     project: "image.kontur",
+    project_path: "/home/user/image.kontur",
+    frame_of_reference_uid: "",
     read_only: false,
     image: { size: [100, 80, 51], spacing_mm: [2, 2, 2], corners, center: [0, 0, 0], unit: "HU", range: [-1000, 1000], times: 1, time: 0, notes: [] },
     images: [],

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "contour_files.h"
+#include "dicom_output.h"
+#include "drawn_on.h"
+#include "facts.h"
+#include "input_digests.h"
+#include "kontur/base/error.h"
+#include "kontur/correct_mask.h"
+#include "kontur/image/intensities.h"
+#include "kontur/io/bytes/atomic_file.h"
+#include "kontur/io/contours/contour_json.h"
+#include "mask_file.h"
+#include "outputs.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What needs an image, or does not go with one.
+void check_image_needed(const CorrectCommand& command) {
+    const FileKind kind = input_kind(command.mask.path);
+    if (kind != FileKind::image && command.image.empty())
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} holds {}, which has no voxels; give the image that shows it with --image",
+                                command.mask.path.string(), kind == FileKind::mesh ? "a surface" : "contours"));
+    if (kind != FileKind::image && command.label)
+        throw Error(ErrorKind::invalid_input, fmt::format("--label is for label maps, and {} is none; leave it out",
+                                                          command.mask.path.string()));
+    if (kind != FileKind::contours && command.mask_roi)
+        throw Error(ErrorKind::invalid_input, fmt::format("--mask-roi is for an RTSTRUCT, and {} is none; leave it out",
+                                                          command.mask.path.string()));
+    if (command.image.empty() && command.use_image == UseImage::off)
+        throw Error(ErrorKind::invalid_input, "--use-image is for an --image, and none is given; leave it out");
+}
+
+/// Whatever can be refused before any work is done.
+void check(const CorrectCommand& command) {
+    check_image_needed(command);
+    refuse_images({command.corrections});
+    check_outputs(std::array{command.output, command.report, command.provenance_map},
+                  std::array{command.mask.path, command.corrections, command.image});
+    check_output_kind(command.output, FileKind::image);
+    check_dicom_images(command.output, command.image);
+    check_series(command.series, std::array{command.output});
+    if (!command.provenance_map.empty()) {
+        check_output_kind(command.provenance_map, FileKind::image);
+        if (is_dicom_name(command.provenance_map))
+            throw Error(ErrorKind::unsupported, fmt::format("{}: --provenance-map writes .nii, .nii.gz, .nrrd, .mha or .mgz",
+                                                            command.provenance_map.string()));
+    }
+    if (!command.report.empty() && !has_extension(command.report, ".json"))
+        throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .json", command.report.string()));
+}
+
+Provenance provenance_of(const CorrectCommand& command, const Work& work) {
+    std::string options =
+        fmt::format("reach={} drop_loose={}", command.options.reach, command.options.drop_loose);
+    if (command.label) options += fmt::format(" label={}", *command.label);
+    if (command.mask_roi) options += fmt::format(" mask_roi={}", *command.mask_roi);
+    std::vector<std::pair<std::string, fs::path>> inputs{{"mask", command.mask.path}, {"corrections", command.corrections}};
+    if (!command.image.empty()) {
+        options += fmt::format(" use_image={}", name(command.use_image));
+        if (!is_dicom_name(command.output)) inputs.emplace_back("image", command.image);
+    }
+    return made_by("correct", inputs, options, work);
+}
+
+/// What was drawn; in kontur's own files with the planes that were found right.
+Corrections read_corrections(const CorrectCommand& command, Console& console) {
+    ReadContours read = read_contours(command.corrections, command.read);
+    console.note(read.notes);
+    check_each_contour(command.corrections, read.contours);
+    Corrections corrections{std::move(read.contours), {}};
+    if (has_extension(command.corrections, ".json") && !has_extension(command.corrections, ".mrk.json"))
+        corrections.confirmed = read_confirmed_planes_json(command.corrections);
+    return corrections;
+}
+
+Facts point_facts(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+Facts report_of(const CorrectReport& report, const std::vector<std::string>& warnings, const Provenance& made) {
+    Facts planes = Facts::array(), pieces = Facts::array(), provenance = Facts::object();
+    for (const CorrectedPlane& one : report.planes) {
+        Facts contours = Facts::array();
+        for (const std::size_t contour : one.contours) contours.push_back(contour + 1);
+        planes.push_back({{"kind", name(one.kind)},
+                          {"origin", point_facts(one.plane.origin)},
+                          {"normal", point_facts(one.plane.normal)},
+                          {"contours", contours},
+                          {"largest_move_mm", one.largest_move_mm}});
+    }
+    for (const LoosePiece& piece : report.loose_pieces)
+        pieces.push_back(
+            {{"voxels", piece.voxels}, {"volume_ml", piece.volume_ml}, {"position", point_facts(piece.position)}});
+    for (const auto& [name, value] : made) provenance[name] = value;
+    Facts image = nullptr;
+    if (report.image)
+        image = {{"weight", report.image->weight},
+                 {"planes_left_out", report.image->planes},
+                 {"wrong_without", report.image->wrong_without},
+                 {"wrong_with", report.image->wrong_with}};
+    return {{"version", KONTUR_VERSION},
+            {"provenance", provenance},
+            {"length_mm", report.length_mm},
+            {"reach_mm", report.reach_mm},
+            {"planes", planes},
+            {"voxels",
+             {{"added_drawn", report.added_drawn},
+              {"removed_drawn", report.removed_drawn},
+              {"added_carried", report.added_carried},
+              {"removed_carried", report.removed_carried},
+              {"added_image", report.added_image},
+              {"removed_image", report.removed_image}}},
+            {"image", image},
+            {"volume_before_ml", report.volume_before_ml},
+            {"volume_ml", report.volume_ml},
+            {"dice", report.dice},
+            {"loose_pieces", pieces},
+            {"dropped_loose", report.dropped_loose},
+            {"warnings", warnings}};
+}
+
+std::vector<LabelName> origin_names() {
+    return {{1, "as it was"},      {2, "added where drawn"}, {3, "removed where drawn"}, {4, "added beside"},
+            {5, "removed beside"}, {6, "added by the image"}, {7, "removed by the image"}};
+}
+
+/// The image where it is to take part and can be read; else it is said why not.
+std::optional<Image> shown_in(const CorrectCommand& command, Console& console, const Work& work) {
+    if (command.image.empty() || command.use_image == UseImage::off) return {};
+    std::string unused;
+    std::optional<Image> image = readable_image(image_of(command, console), work, unused);
+    if (!unused.empty()) console.warn(unused);
+    if (image && is_label_map(*image))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} holds labels, which do not show how far a correction goes; give the image that was "
+                                "segmented, or --use-image off",
+                                command.image.string()));
+    return image;
+}
+
+std::vector<std::string> loose_sentences(const CorrectReport& report) {
+    std::vector<std::string> sentences;
+    if (report.dropped_loose) return sentences;
+    for (const LoosePiece& piece : report.loose_pieces)
+        sentences.push_back(fmt::format("a piece of {:.2g} ml at ({:.1f}, {:.1f}, {:.1f}) mm hangs loose now; --drop-loose "
+                                        "takes it away",
+                                        piece.volume_ml, piece.position.x, piece.position.y, piece.position.z));
+    return sentences;
+}
+
+}  // namespace
+
+void run(const CorrectCommand& command, Console& console) {
+    check(command);
+    const Work work = console.work(command.threads);
+    MaskFile file = read_mask_file(command, console, work);
+    const std::optional<Image> image = shown_in(command, console, work);
+    const CorrectedMask corrected = correct({file.mask, ExistingSurface(file.mask, work), image ? &*image : nullptr},
+                                            read_corrections(command, console), command.options, work);
+    std::vector<std::string> warnings = corrected.report.warnings;
+    for (const auto& some : {put(file, corrected), loose_sentences(corrected.report)})
+        warnings.insert(warnings.end(), some.begin(), some.end());
+    for (const std::string& warning : warnings) console.warn(warning);
+
+    const Provenance made = provenance_of(command, work);
+    Outputs outputs;
+    outputs.write(command.output, [&](const fs::path& path) {
+        console.note(write_mask_file(path, file, command, made, console));
+    });
+    if (!command.provenance_map.empty())
+        outputs.write(command.provenance_map, [&](const fs::path& path) {
+            kontur::write_image(path, {corrected.mask.grid, corrected.origin}, {origin_names(), made});
+        });
+    if (!command.report.empty())
+        outputs.write(command.report, [&](const fs::path& path) {
+            write_file_atomically(path, to_json_text(report_of(corrected.report, warnings, made)));
+        });
+    outputs.commit();
+    if (corrected.report.image) console.note(std::array{sentence(*corrected.report.image)});
+    console.print(fmt::format("{}: {}\n", command.output.string(), sentence(corrected.report)));
+}
+
+}  // namespace kontur::app

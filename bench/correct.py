@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How fast masks of others come right, plane by plane, by a simulated corrector: the plane with the largest wrong area is
+redrawn as the truth has it. Beside `kontur.correct`: slices replaced, and changes of slices blended to their neighbours.
+
+python3 bench/correct.py MASKS [-o results.csv] [--planes N] [--only PART] [--free]
+MASKS: a folder with one folder for each mask, with mask.nii.gz, truth.nii.gz and, if there is one, image.nii.gz.
+"""
+import argparse
+import csv
+import pathlib
+import statistics
+
+import numpy as np
+from scipy import ndimage
+
+import kontur
+
+BLEND_MM = 10
+DIRECTIONS = [np.array(d, float) for d in (
+    (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, -1, 0), (1, 0, 1), (1, 0, -1), (0, 1, 1), (0, 1, -1), (1, 1, 1),
+    (1, 1, -1), (1, -1, 1), (-1, 1, 1))]
+
+
+class Case:
+    """A mask and its truth."""
+
+    def __init__(self, folder):
+        self.name = folder.name
+        self.mask = kontur.read_mask(folder / "mask.nii.gz")
+        self.truth = kontur.read_mask(folder / "truth.nii.gz")
+        self.grid = self.mask.grid
+        self.m = np.asarray(self.mask.values) != 0
+        self.t = np.asarray(self.truth.values) != 0
+        self.spacing = np.asarray(self.grid.spacing_mm)  # x, y, z
+
+    def slice_plane(self, k):
+        step = np.asarray(self.grid.index_to_mm)[:3, :3]
+        u = step[:, 0] / np.linalg.norm(step[:, 0])
+        normal = np.cross(u, step[:, 1])
+        return kontur.Plane(self.point((0, 0, k)), normal / np.linalg.norm(normal))
+
+    def point(self, index):
+        return (np.asarray(self.grid.index_to_mm) @ [*index, 1])[:3]
+
+
+def dice(a, b):
+    return 2 * (a & b).sum() / max(1, a.sum() + b.sum())
+
+
+def worst_slice(case, now, done):
+    wrong = (now != case.t).sum((1, 2)).astype(float)
+    wrong[list(done)] = -1
+    return int(wrong.argmax())
+
+
+def worst_plane(case, now, done):
+    """The plane of 13 directions, as thick as the largest voxel side, with most wrong voxels."""
+    k, j, i = np.nonzero(now != case.t)
+    if not len(i):
+        return None
+    p = np.stack([i, j, k, np.ones_like(i)]).astype(float)
+    p = (np.asarray(case.grid.index_to_mm) @ p)[:3].T
+    width, best = case.spacing.max(), (0, None)
+    for normal in DIRECTIONS:
+        normal = normal / np.linalg.norm(normal)
+        x = p @ normal
+        counts, edges = np.histogram(x, bins=np.arange(x.min() - width, x.max() + 2 * width, width))
+        for plane in done:
+            if abs(np.asarray(plane.normal) @ normal) > 0.999:
+                counts[np.abs((edges[:-1] + edges[1:]) / 2 - np.asarray(plane.origin) @ normal) < 0.8 * width] = 0
+        n = counts.argmax()
+        if counts[n] > best[0]:
+            there = (x >= edges[n]) & (x < edges[n + 1])
+            best = (counts[n], kontur.Plane(p.mean(0) + (x[there].mean() - p.mean(0) @ normal) * normal, normal))
+    return best[1]
+
+
+def corrections(case, planes):
+    drawn = kontur.trace(case.truth, planes)
+    empty = [p for p in planes if not len(kontur.trace(case.truth, [p]).contours)]
+    return kontur.ContourSet(drawn.contours, empty_planes=empty)
+
+
+def by_kontur(case, planes, **options):
+    return np.asarray(kontur.correct(case.mask, corrections(case, planes), **options).mask.values) != 0
+
+
+def slices_replaced(case, ks):
+    now = case.m.copy()
+    now[ks] = case.t[ks]
+    return now
+
+
+def depth(mask, spacing):
+    inside = ndimage.distance_transform_edt(mask, sampling=spacing)
+    outside = ndimage.distance_transform_edt(~mask, sampling=spacing)
+    half = min(spacing) / 2
+    return np.where(mask, inside - half, half - outside)
+
+
+def blended(case, ks):
+    """The change of a slice's signed distance fades linearly to BLEND_MM away, or to the next corrected slice."""
+    now, sampling, gap = slices_replaced(case, ks), case.spacing[1::-1], case.spacing[2]
+    body = depth(case.m, case.spacing[::-1])
+    old = lambda k: depth(case.m[k], sampling) if case.m[k].any() else np.minimum(body[k], -min(sampling) / 2)
+    changes = {}
+    for k in ks:
+        if case.t[k].any():
+            changes[k] = depth(case.t[k], sampling) - old(k)
+        elif case.m[k].any():
+            changes[k] = -np.maximum(np.abs(old(k)), min(sampling)) - old(k)
+    for k in range(len(now)):
+        if k in ks:
+            continue
+        below, above = [c for c in ks if c < k][-1:], [c for c in ks if c > k][:1]
+        reach = min(BLEND_MM / gap, above[0] - below[0] if below and above else np.inf)
+        change = sum(max(0, 1 - abs(k - c) / reach) * changes.get(c, 0) for c in below + above)
+        if np.any(change):
+            now[k] = np.where(np.abs(change) > 0.02 * min(sampling), old(k) + change > 0, now[k])
+    return now
+
+
+def run(case, method, planes, options):
+    """One row for each number of planes."""
+    now, done, rows = case.m, [], []
+    for count in range(planes + 1):
+        right = case.m == case.t
+        rows.append({"mask": case.name, "method": method, "planes": count, "dice": round(float(dice(now, case.t)), 5),
+                     "harmed": round(float((right & (now != case.t)).sum() / case.t.sum()), 5)})
+        if count == planes:
+            return rows
+        if method == "free":
+            plane = worst_plane(case, now, done)
+            if plane is not None:
+                done.append(plane)
+                now = by_kontur(case, done, **options)
+            continue
+        done.append(worst_slice(case, now, done))
+        now = {"slices": lambda: slices_replaced(case, sorted(done)), "blended": lambda: blended(case, sorted(done)),
+               "axial": lambda: by_kontur(case, [case.slice_plane(k) for k in done], **options)}[method]()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("masks", type=pathlib.Path)
+    parser.add_argument("-o", "--output", type=pathlib.Path)
+    parser.add_argument("--planes", type=int, default=5)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--methods", default="slices,blended,axial,free")
+    parser.add_argument("--reach", type=float, default=1)
+    given = parser.parse_args()
+    rows = []
+    for folder in sorted(p for p in given.masks.iterdir() if (p / "mask.nii.gz").exists() and given.only in p.name):
+        case = Case(folder)
+        for method in given.methods.split(","):
+            some = run(case, method, given.planes, {"reach": given.reach})
+            rows += some
+            print(f"{case.name:36} {method:8}", *(f"{r['dice']:.3f}" for r in some),
+                  f"  harmed {some[min(3, given.planes)]['harmed']:.3f}", flush=True)
+    for method in given.methods.split(","):
+        means = [statistics.fmean(r["dice"] for r in rows if r["method"] == method and r["planes"] == n)
+                 for n in range(given.planes + 1)]
+        harmed = statistics.fmean(r["harmed"] for r in rows if r["method"] == method and r["planes"] == min(3, given.planes))
+        print(f"{'mean':36} {method:8}", *(f"{m:.4f}" for m in means), f" harmed {harmed:.4f}")
+    if given.output:
+        with given.output.open("w", newline="", encoding="utf-8") as out:
+            writer = csv.DictWriter(out, ["mask", "method", "planes", "dice", "harmed"])
+            writer.writeheader()
+            writer.writerows(rows)
+
+
+if __name__ == "__main__":
+    main()

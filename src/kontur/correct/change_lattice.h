@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kontur/base/work.h"
+#include "kontur/correct/change.h"
+#include "kontur/correct/existing_surface.h"
+#include "kontur/shape/index_box.h"
+
+namespace kontur {
+
+/// g at voxels, by linear interpolation on every n-th voxel of a box, along each axis by itself: a sixth of g's length.
+/// Where the surface is farther away than g moves it, g is 0.
+class ChangeLattice {
+public:
+    ChangeLattice(const ExistingSurface& surface, const SurfaceChange& change, const IndexBox& box, const Work& work);
+
+    /// At a voxel of the box.
+    double at(const Index3& voxel) const;
+
+private:
+    std::int64_t offset(const Index3& node) const { return node.i + size_.i * (node.j + size_.j * node.k); }
+    Index3 voxel_of(std::int64_t node) const;
+
+    Index3 first_, step_, size_;
+    std::vector<double> values_;
+};
+
+}  // namespace kontur

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/derive/evaluate.h"
+
+#include "kontur/derive/body_outline.h"
+#include "kontur/derive/margin.h"
+#include "kontur/derive/mask_levels.h"
+#include "kontur/derive/parts.h"
+
+namespace kontur {
+namespace {
+
+/// An operand, without a copy where it is there.
+class Operand {
+public:
+    Operand(const Expression& e, const RuleScene& scene, const Work& work) {
+        if (e.operation == Operation::name) known_ = &scene.levels.at(e.name);
+        else made_ = evaluate(e, scene, work);
+    }
+    operator const Levels&() const { return known_ ? *known_ : made_; }
+
+private:
+    const Levels* known_ = nullptr;
+    Levels made_;
+};
+
+}  // namespace
+
+Levels evaluate(const Expression& e, const RuleScene& scene, const Work& work) {
+    const Grid& grid = scene.lattice.grid;
+    const auto operand = [&](std::size_t n) { return Operand(e.operands[n], scene, work); };
+    switch (e.operation) {
+        case Operation::name:
+            return scene.levels.at(e.name);
+        case Operation::body:
+            return mask_levels(body_outline(*scene.image, e.threshold, work), scene.lattice, work);
+        case Operation::join:
+            return join(operand(0), operand(1), work);
+        case Operation::meet:
+            return meet(operand(0), operand(1), work);
+        case Operation::without:
+            return without(operand(0), operand(1), work);
+        case Operation::margin:
+            return margin(operand(0), grid, e.lengths, e.side, work);
+        case Operation::margin_along:
+            return margin_along(operand(0), grid, e.way, e.side, work);
+        case Operation::fill:
+            return filled(operand(0));
+        case Operation::largest:
+            return largest_part(operand(0));
+        case Operation::drop:
+            return parts_from(operand(0), grid, e.least_ml);
+        case Operation::clip:
+            return kept_where(operand(0), grid, [&](const Vec3& p) { return e.plane.distance_to(p); }, work);
+    }
+    return {};
+}
+
+}  // namespace kontur

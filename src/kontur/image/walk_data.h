@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kontur/image/refit.h"
+#include "kontur/image/voxel_walk.h"
+
+namespace kontur {
+
+struct WalkDataOptions {
+    double off_contours = 1;  ///< cells: what is nearer to the contours is left to them
+    double noise = 1;         ///< factor
+    std::size_t most = 2000;  ///< cells beside the walk's surface
+};
+
+/// A walk, and how deep its cells lie below its surface (depths_below).
+struct WalkDepths {
+    const VoxelWalk& walk;
+    const Depths& depths;
+    const ImageCells& cells;
+};
+
+/// A fit to the contours alone, and how the cells lie to its surface.
+struct FitDepths {
+    const FittedFunction& fitted;
+    const CellDepths& depths;
+};
+
+/// What a walk tells a fit: how deep the cells on both sides of its surface are below it, by where the probability passes
+/// one half, with a noise of .03 cells where it falls steeply and more where it does not; that a surface which the contours
+/// alone have elsewhere is not there; and that in drawn planes f stays what it was, where the walk's surface comes near
+/// them beside the contours; and farther outside what kOutsideShells says. The result
+/// refers to the walk and the fit.
+ImageData walk_data(const WalkDepths& walk, const FitDepths& alone, const Drawing& drawing, const WalkDataOptions& options,
+                    const Work& work = {});
+
+/// Of each cell below the surface of the walk; above it less than 0.
+Depths depths_below(const VoxelWalk& walk, const ImageCells& cells);
+
+}  // namespace kontur

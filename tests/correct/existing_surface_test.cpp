@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/correct/existing_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kontur/base/distance_transform.h"
+#include "support/mask_of.h"
+
+namespace kontur {
+namespace {
+
+Mask ball(const Grid& grid, const Vec3& center, double radius) {
+    return test::mask_of(grid, [&](const Vec3& p) { return distance(p, center) < radius; });
+}
+
+/// Axes of the given lengths, turned, and sheared along y by `shear` of z.
+Grid turned(const Vec3& spacing, double shear) {
+    const double c = std::cos(0.4), s = std::sin(0.4);
+    Grid grid{{48, 52, 30}, {}};
+    grid.index_to_mm.set_column(0, {spacing.x * c, spacing.x * s, 0});
+    grid.index_to_mm.set_column(1, {-spacing.y * s, spacing.y * c, 0});
+    grid.index_to_mm.set_column(2, {0, shear * spacing.z, spacing.z});
+    grid.index_to_mm.translation = {-10, 20, 5};
+    return grid;
+}
+
+TEST(ExistingSurface, IsTheDistanceOfABallOnAnyGrid) {
+    for (const double shear : {0.0, 0.2})
+        for (const Vec3& spacing : {Vec3{1, 1, 1}, Vec3{0.8, 1.1, 2.5}}) {
+            const Grid grid = turned(spacing, shear);
+            const Vec3 center = grid.center_mm(24, 26, 15);
+            const ExistingSurface surface(ball(grid, center, 14));
+            EXPECT_NEAR(surface.inscribed_radius_mm(), 14, 1.2);
+            EXPECT_NEAR(surface.radius_mm(), 14, 0.6);
+            for (const double radius : {4.0, 9.0, 12.0, 14.0, 16.0, 20.0})
+                for (int n = 0; n < 40; ++n) {
+                    const Vec3 to = normalized({std::cos(n * 1.3), std::sin(n * 0.7), std::cos(n * 2.1 + 1)});
+                    EXPECT_NEAR(surface.value(center + radius * to), 14 - radius, 0.45 * spacing.z + 0.4) << radius;
+                }
+        }
+}
+
+TEST(ExistingSurface, HasTheMasksSignAtEveryVoxel) {
+    const Mask mask = ball(turned({1, 1, 2}, 0.2), turned({1, 1, 2}, 0.2).center_mm(24, 26, 15), 3.1);
+    const ExistingSurface surface(mask);
+    for (std::int64_t k = 0; k < mask.grid.size.k; ++k)
+        for (std::int64_t j = 0; j < mask.grid.size.j; ++j)
+            for (std::int64_t i = 0; i < mask.grid.size.i; ++i)
+                EXPECT_EQ(surface.value_at_voxel({i, j, k}) > 0, mask.values[mask.grid.offset(i, j, k)] != 0);
+}
+
+TEST(ExistingSurface, EndsWithTheImageHalfAVoxelBeyondIt) {
+    Grid grid = turned({1, 1, 1}, 0);
+    Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()), 1)};
+    const ExistingSurface surface(mask);
+    EXPECT_NEAR(surface.value(grid.index_to_mm.apply({-0.5, 26, 15})), 0, 0.15);
+    EXPECT_LT(surface.value(grid.index_to_mm.apply({-9, 26, 15})), -8);
+}
+
+TEST(DistanceTransform, KnowsSpacing) {
+    const Index3 size{9, 7, 6};
+    const Vec3 spacing{0.7, 1.3, 3};
+    std::vector<std::uint8_t> marked(static_cast<std::size_t>(size.i * size.j * size.k));
+    for (const std::size_t n : {3U, 77U, 200U, 301U}) marked[n] = 1;
+    const NearestMarked found = nearest_marked(size, spacing, marked);
+    const auto place = [&](std::size_t n) {
+        const auto at = static_cast<std::int64_t>(n);
+        return Vec3{static_cast<double>(at % size.i) * spacing.x, static_cast<double>(at / size.i % size.j) * spacing.y,
+                    static_cast<double>(at / size.i / size.j) * spacing.z};
+    };
+    for (std::size_t n = 0; n < marked.size(); ++n) {
+        double least = 1e9;
+        for (std::size_t m = 0; m < marked.size(); ++m)
+            if (marked[m]) least = std::min(least, distance(place(n), place(m)));
+        EXPECT_NEAR(found.distances[n], least, 1e-5);
+        EXPECT_NEAR(distance(place(n), place(found.nearest[n])), least, 1e-5);
+    }
+}
+
+}  // namespace
+}  // namespace kontur

@@ -68,7 +68,7 @@ Row segment_both_ways(const ContourSet& contours, const Mask& truth, bool with_p
     Row row;
     row.contours = contours.contours.size();
     row.points = point_count(contours);
-    const Segmentation by_default = segment(contours, truth.grid);
+    const Segmentation by_default = segment(contours, truth.grid, {.drawn_on = truth.grid});
     row.kontur = compare(by_default.mask, truth);
     row.function = by_default.function;
     if (with_paper) row.paper = compare(segment(contours, truth.grid, as_printed()).mask, truth);

@@ -66,9 +66,10 @@ std::vector<FileStructure> read_inputs(const DeriveCommand& command, Console& co
     for (const fs::path& path : command.inputs) {
         const FileKind kind = input_kind(path);
         if (kind == FileKind::mesh)
-            throw Error(ErrorKind::unsupported, fmt::format("{} holds a surface; rules take label maps and contours, and kontur "
-                                                            "correct reads a surface as a mask",
-                                                            path.string()));
+            throw Error(ErrorKind::unsupported,
+                        fmt::format("{} holds a surface; rules take label maps and contours, and kontur "
+                                    "correct reads a surface as a mask",
+                                    path.string()));
         if (kind == FileKind::image) add_masks({path, console.noting(command.image.options)}, work, found);
         else if (is_rtstruct(path)) add_rois(path, console, found);
         else add_contours(path, console, found);
@@ -89,7 +90,8 @@ const FileStructure& the_one(const std::vector<FileStructure>& all, const std::s
 /// What was drawn on: the grid of the label maps, or else of the image.
 struct Scene {
     Grid grid;
-    std::optional<Image> image;  ///< where its voxels matter
+    std::optional<Image> image;      ///< where its voxels matter
+    std::optional<Grid> drawn_on{};  ///< by contours
 };
 
 Scene read_scene(const DeriveCommand& command, const std::vector<const FileStructure*>& needed, bool asks_body,
@@ -113,7 +115,7 @@ Scene read_scene(const DeriveCommand& command, const std::vector<const FileStruc
         std::vector<std::string> notes;
         DrawnOn drawn_on = read_drawn_on(images, command.segment.use_image, work, notes);
         console.note(notes);
-        scene = {drawn_on.grid, std::move(drawn_on.image)};
+        scene = {drawn_on.grid, std::move(drawn_on.image), drawn_on.grid};
     }
     if (masked != needed.end()) scene.grid = std::get<Mask>((*masked)->content).grid;
     return scene;
@@ -126,9 +128,10 @@ NamedStructure structure_of(const FileStructure& from, const Scene& scene, const
     if (!roi.damage.empty()) throw Error(ErrorKind::corrupt_file, fmt::format("{}: {}", from.file.string(), roi.damage));
     console.note(roi.notes);
     console.note(frame_of_reference_notes(roi.frame_of_reference_uid, command.image));
+    SegmentOptions options = command.segment;
+    options.drawn_on = scene.drawn_on;
     try {
-        Segmentation made =
-            segment(roi.contours, scene.grid, scene.image ? &*scene.image : nullptr, command.segment, work);
+        Segmentation made = segment(roi.contours, scene.grid, scene.image ? &*scene.image : nullptr, options, work);
         for (const std::string& warning : made.report.warnings) console.warn(fmt::format("{}: {}", from.name, warning));
         return {from.name, std::move(made.mask), std::move(made.function)};
     } catch (const Error& error) {
@@ -144,8 +147,8 @@ DeriveSources read_derive_sources(const DeriveCommand& command, const std::vecto
     std::vector<std::string> names;
     for (const FileStructure& one : all) names.push_back(one.name);
     check_rules(rules, names, !command.image.path.empty());
-    const bool asks_body =
-        std::any_of(rules.begin(), rules.end(), [](const std::string& rule) { return rule.find("body") != std::string::npos; });
+    const bool asks_body = std::any_of(rules.begin(), rules.end(),
+                                       [](const std::string& rule) { return rule.find("body") != std::string::npos; });
     std::vector<const FileStructure*> needed;
     for (const std::string& name : sources_of(rules)) needed.push_back(&the_one(all, name));
     Scene scene = read_scene(command, needed, asks_body, console, work);

@@ -198,6 +198,7 @@ void run(const SegmentCommand& words, Console& console) {
     check_planes_suffice(command, inputs.contours);
     const bool draws_band = !command.uncertainty.empty() && is_mesh_name(command.uncertainty);
     options.mesh = !command.mesh.empty() || !command.picture.empty() || draws_band;
+    if (!command.image.path.empty()) options.drawn_on = inputs.grid;
     Segmentation result = segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, work);
     SegmentReport& report = result.report;
     name_margin(command, report.warnings);

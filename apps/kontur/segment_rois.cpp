@@ -83,12 +83,19 @@ FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& 
 
 IndexBox whole_box(const Grid& grid) { return {{0, 0, 0}, {grid.size.i - 1, grid.size.j - 1, grid.size.k - 1}}; }
 
+SegmentOptions options_for(const SegmentCommand& command, const RoiDrawings& drawings) {
+    SegmentOptions options = command.options;
+    if (!command.image.path.empty()) options.drawn_on = drawings.grid;
+    return options;
+}
+
 RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
     RoiResults result(command, drawings);
     const Image* const image = drawings.image ? &*drawings.image : nullptr;
+    const SegmentOptions options = options_for(command, drawings);
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
         try {
-            Segmentation made = segment(drawings.rois[n].contours, drawings.grid, image, command.options, work);
+            Segmentation made = segment(drawings.rois[n].contours, drawings.grid, image, options, work);
             ContourSet outlines;
             if (!command.rtstruct.empty()) outlines = slice_contours(made.mask, made.function, work);
             FittedRoi one = fitted_from(drawings, n, made);
@@ -111,7 +118,7 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
     RoiResults result(command, drawings);
     std::vector<ContourSet> contours;
     for (const Roi& roi : drawings.rois) contours.push_back(roi.contours);
-    const TogetherOptions options{.segment = command.options, .rules = roi_rules(command, drawings)};
+    const TogetherOptions options{.segment = options_for(command, drawings), .rules = roi_rules(command, drawings)};
     Together all = segment_together(contours, drawings.grid, drawings.image ? &*drawings.image : nullptr, options, work);
     for (const StructurePair& pair : all.pairs) {
         if (pair.relation == Relation::inside)
@@ -131,8 +138,8 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
         ContourSet outlines = command.rtstruct.empty() ? ContourSet{} : slice_outlines(object, drawings.grid);
         FittedRoi one = fitted_from(drawings, n, all.structures[n]);
         if (!command.rules.empty())
-            result.for_rules.push_back({one.roi.name, widened(object, whole_box(drawings.grid), drawings.grid).mask,
-                                        all.structures[n].function});
+            result.for_rules.push_back(
+                {one.roi.name, widened(object, whole_box(drawings.grid), drawings.grid).mask, all.structures[n].function});
         if (has_extension(command.output, ".seg.nrrd"))  // all layers have one grid
             object = widened(object, whole_box(drawings.grid), drawings.grid);
         result.add(command, std::move(one), std::move(outlines), std::move(object.mask), object.box);
@@ -211,9 +218,10 @@ void segment_rois(const SegmentCommand& command, Console& console) {
         if (!one.rule.empty())
             text += fmt::format("{} {}: {}, {}; by rule\n", one.segment.number, one.segment.label,
                                 counted(one.report.mask_voxels, "voxel"), in_ml(one.report.mask_volume_ml));
-        else text += fmt::format("{} {}: {}, {}; residual {:.3g} mm (max)\n", one.segment.number, one.segment.label,
-                            counted(one.report.mask_voxels, "voxel"), in_ml(one.report.mask_volume_ml),
-                            one.report.residual.max_mm);
+        else
+            text += fmt::format("{} {}: {}, {}; residual {:.3g} mm (max)\n", one.segment.number, one.segment.label,
+                                counted(one.report.mask_voxels, "voxel"), in_ml(one.report.mask_volume_ml),
+                                one.report.residual.max_mm);
     for (const fs::path& path : {command.rtstruct, command.mesh, command.report})
         if (!path.empty()) text += path.string() + "\n";
     console.print(text);

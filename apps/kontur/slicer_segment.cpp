@@ -138,6 +138,7 @@ SegmentedModel fit(const SlicerCommand& command, const Work& work) {
     const Grid grid = read_grid(command.reference, {}, work);
     SegmentOptions options = command.options;
     options.mesh = !command.output_model.empty();
+    options.drawn_on = grid;
     Segmentation result = segment(contours.contours, grid, options, work);
     result.report.warnings.insert(result.report.warnings.begin(), contours.notes.begin(), contours.notes.end());
     return {std::move(contours.contours), std::move(result)};

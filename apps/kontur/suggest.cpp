@@ -116,6 +116,7 @@ void run(const SuggestCommand& command, Console& console) {
 
     SegmentOptions options = command.options;
     options.mesh = !command.sketch.empty();
+    if (!command.image.path.empty()) options.drawn_on = grid;
     const Segmentation made = segment(contours, grid, image ? &*image : nullptr, options, work);
     for (const std::string& warning : made.report.warnings) console.warn(warning);
     SuggestPlaneOptions choose{.planes = command.among};

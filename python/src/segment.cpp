@@ -199,6 +199,8 @@ Keywords<SegmentOptions> segment_keywords() {
                "'auto': where an image is given, let it tell how the surface runs between the contours, if it is shown, at "
                "contours left out, that this helps.")
         .field("mesh", &SegmentOptions::mesh, "Also make the surface.")
+        .field("drawn_on", &SegmentOptions::drawn_on,
+               "Grid of what was drawn on, where no image is given: the object goes on where its border cuts it off.")
         .field("max_memory_mb", &SegmentOptions::max_memory_mb,
                "Refuse a run of which the process would hold more; None: the machine's memory.");
 }

@@ -98,6 +98,7 @@ private:
         segmenting.use_image = options_.use_image;
         segmenting.max_memory_mb = options_.max_memory_mb;
         segmenting.smoothing = smoothing;
+        segmenting.drawn_on = grid();
         return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), image, segmenting, work_);
     }
 

@@ -26,7 +26,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
     check_grid(grid);
     if (const auto warning = check_contours_inside(drawing.contours, grid)) drawing.notes.push_back(*warning);
     StageOptions stages = stage_options(options, drawing.diameter_mm());
-    stages.prepare.image = grid;
+    stages.prepare.image = image ? image->grid : options.drawn_on;
     const PreparedContours prepared = prepare(drawing, stages.prepare, work);
     const double memory_mb = estimated_memory_mb(drawing, prepared, grid, options);
     check_memory(memory_mb, options);

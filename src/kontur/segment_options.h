@@ -10,6 +10,7 @@
 #include "kontur/function/kernel.h"
 #include "kontur/image/image_report.h"
 #include "kontur/shape/fill_rule.h"
+#include "kontur/shape/grid.h"
 #include "kontur/solve/solver.h"
 
 namespace kontur {
@@ -31,6 +32,8 @@ struct SegmentOptions {
     Voxelizer voxelizer = Voxelizer::adaptive;
     UseImage use_image = UseImage::automatic;  ///< between the contours; where an image is given
     bool mesh = false;                         ///< also make the surface
+    /// What was drawn on, where no image is given: the object goes on where its border cuts it off. Unset: without border.
+    std::optional<Grid> drawn_on{};
     /// A run of which the process would hold more is refused before it begins to solve; unset: the machine's memory.
     std::optional<double> max_memory_mb{};
 };

@@ -42,7 +42,9 @@ class Structures {
 public:
     Structures(std::span<const ContourSet> drawn, const Grid& grid, const Image* image, const TogetherOptions& options,
                const Work& work)
-        : drawn_(drawn), grid_(grid), image_(image), options_(options), work_(work) {}
+        : drawn_(drawn), grid_(grid), image_(image), options_(options), work_(work) {
+        if (image) options_.segment.drawn_on = image->grid;
+    }
 
     Together run() {
         result_.grid = grid_;
@@ -157,7 +159,7 @@ private:
     std::span<const ContourSet> drawn_;
     const Grid& grid_;
     const Image* image_;
-    const TogetherOptions& options_;
+    TogetherOptions options_;
     const Work& work_;
     std::vector<BoxedMask> masks_;                               ///< of the single fits, then of the partition
     std::map<std::vector<std::size_t>, FittedObject> unions_{};  ///< by the structures that touch

@@ -52,6 +52,19 @@ Image ball(const Grid& grid = index_grid({44, 43, 42})) {
     return label_map(grid, [](const Index3& at) { return is_in_ball(at, kCenter, 15.4) ? 3 : 0; });
 }
 
+TEST(FillLabels, AfterItsLastPaintedSliceAnObjectEndsWhereTheMapGoesOn) {
+    const Image full = ball(index_grid({44, 43, 60}));
+    const Filling filled = fill_labels(sparse_of(full, [](const Index3& at) { return at.k == 6 || at.k == 20; }));
+    double inside = 0, right = 0;
+    for (std::int64_t k = 6; k <= 20; ++k)
+        for (std::int64_t n = k * 44 * 43; n < (k + 1) * 44 * 43; ++n) {
+            const auto at = static_cast<std::size_t>(n);
+            inside += bytes_of_labels(full)[at] == 3;
+            right += bytes_of_labels(full)[at] == 3 && bytes_of_labels(filled.labels)[at] == 3;
+        }
+    EXPECT_GT(right, 0.95 * inside) << "round, not a cone";
+}
+
 TEST(FillLabels, ASteepTubeIsWholeThoughItsSlicesDoNotOverlap) {
     const Image full = label_map(index_grid({90, 30, 31}), [](const Index3& at) {
         return std::hypot(double(at.i) - 12 - 2.2 * double(at.k), double(at.j) - 15) < 5 ? 1 : 0;

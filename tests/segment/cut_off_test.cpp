@@ -17,9 +17,9 @@ constexpr double kTop = 10;  // z of the image's border
 
 Grid image_to(double top, double margin = 30) {
     const Vec3 low{-37 - margin, -33 - margin, -46 - margin};
-    Grid grid{{static_cast<std::int64_t>(-low.x), static_cast<std::int64_t>(-low.y),
-               static_cast<std::int64_t>((top - low.z) / 2)},
-              {}};
+    Grid grid{
+        {static_cast<std::int64_t>(-low.x), static_cast<std::int64_t>(-low.y), static_cast<std::int64_t>((top - low.z) / 2)},
+        {}};
     grid.index_to_mm.set_column(0, {2, 0, 0});
     grid.index_to_mm.set_column(1, {0, 2, 0});
     grid.index_to_mm.set_column(2, {0, 0, 2});
@@ -38,11 +38,13 @@ std::vector<Plane> across_axes() {
     return planes;
 }
 
+Segmentation segment_on(const Grid& image, const ContourSet& set) { return segment(set, image, {.drawn_on = image}); }
+
 /// Below the plane of the cut, on an image that ends there or farther up.
 double dice(const std::vector<Plane>& planes, double image_top) {
     const Grid grid = image_to(kTop);
     const Body body = cut_ellipsoid();
-    Mask mask = segment(test::drawn(body, planes), image_to(image_top)).mask;
+    Mask mask = segment_on(image_to(image_top), test::drawn(body, planes)).mask;
     mask.grid = grid;
     mask.values.resize(static_cast<std::size_t>(grid.voxel_count()));
     return compare(mask, test::mask_of(grid, [&](const Vec3& p) { return body.value(p) > 0; })).dice;
@@ -61,21 +63,28 @@ TEST(CutOff, AStackOfSlicesGoesOnToTheBorder) {
 TEST(CutOff, LinesAlongTheBorderAreNoBorderOfTheObject) {
     expect_gain(across_axes(), 0.001);
     const Grid grid = image_to(kTop);
-    const Segmentation made = segment(test::drawn(cut_ellipsoid(), across_axes()), grid);
+    const Segmentation made = segment_on(grid, test::drawn(cut_ellipsoid(), across_axes()));
     EXPECT_LT(made.report.residual.max_mm, 1);
     EXPECT_TRUE(sentences(made.report.section_check).empty());
 }
 
 TEST(CutOff, AnImageThatEndsElsewhereChangesNothing) {
     const ContourSet set = test::drawn(cut_ellipsoid(), across_axes());
-    const Segmentation near = segment(set, image_to(kTop + 4)), far = segment(set, image_to(kTop + 40));
+    const Segmentation near = segment_on(image_to(kTop + 4), set), far = segment_on(image_to(kTop + 40), set);
+    for (const Vec3& p : {Vec3{0, 0, 0}, {10, 5, 12}, {-20, 20, -20}, {0, 0, 30}})
+        EXPECT_EQ(near.function.value(p), far.function.value(p));
+}
+
+TEST(CutOff, AGridThatIsNoImageCutsNothing) {
+    const ContourSet set = test::drawn(test::ellipsoid({}, {37, 33, 45}), test::axial_planes({-30, -15, 0}));
+    const Segmentation near = segment(set, image_to(4)), far = segment(set, image_to(80));
     for (const Vec3& p : {Vec3{0, 0, 0}, {10, 5, 12}, {-20, 20, -20}, {0, 0, 30}})
         EXPECT_EQ(near.function.value(p), far.function.value(p));
 }
 
 TEST(CutOff, AnImageThatLinesRunOutOfChangesNothing) {
     const ContourSet set = test::drawn(test::ellipsoid({}, {37, 33, 45}), across_axes());
-    const Segmentation near = segment(set, image_to(kTop)), far = segment(set, image_to(kTop + 80));
+    const Segmentation near = segment_on(image_to(kTop), set), far = segment_on(image_to(kTop + 80), set);
     for (const Vec3& p : {Vec3{0, 0, 0}, {10, 5, 12}, {-20, 20, -20}, {0, 0, 30}})
         EXPECT_EQ(near.function.value(p), far.function.value(p));
 }

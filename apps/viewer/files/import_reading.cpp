@@ -102,7 +102,7 @@ struct Traced {
 
 TracedMask preview_of(const Mask& mask, const ContourSet& set) {
     const double voxel_ml = mask.grid.voxel_volume_mm3() / 1000;
-    const Mask made = segment(set, mask.grid).mask;
+    const Mask made = segment(set, mask.grid, {.drawn_on = mask.grid}).mask;
     const auto count = [](const Mask& one) { return static_cast<double>(std::ranges::count(one.values, 1)); };
     double both = 0;
     for (std::size_t n = 0; n < mask.values.size(); ++n) both += mask.values[n] == 1 && made.values[n] == 1;

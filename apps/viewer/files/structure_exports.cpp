@@ -218,6 +218,7 @@ std::vector<FittedStructure> fit_together(const State& state, const Image& image
     if (all.empty()) return all;
     TogetherOptions options;
     options.segment.mesh = with_mesh;
+    options.segment.drawn_on = image.grid;
     for (const FittedStructure& one : all) options.smoothing.push_back(one.structure.smoothing);
     options.rules = rules_among(state.borders, ids);
     Together together = segment_together(sets, grid, asked(state, image), options, work);
@@ -239,7 +240,7 @@ std::vector<FittedStructure> fit_each(const State& state, const Image& image, co
     for (const auto& [id, structure] : state.structures) {
         ContourSet set = contour_set(state, id);
         if (set.contours.empty()) continue;
-        const SegmentOptions options{.smoothing = structure.smoothing, .mesh = with_mesh};
+        const SegmentOptions options{.smoothing = structure.smoothing, .mesh = with_mesh, .drawn_on = image.grid};
         try {
             Segmentation made = segment(set, grid, asked(state, image), options, work);
             all.push_back({structure, std::move(set), std::move(made)});
@@ -271,7 +272,7 @@ FittedStructure fit_structure(const State& state, Id structure, const Image& ima
     const bool is_alone = std::all_of(state.contours.begin(), state.contours.end(),
                                       [&](const auto& item) { return item.second->structure == structure; });
     if (!state.borders.shared || is_alone || set.contours.empty()) {
-        const SegmentOptions options{.smoothing = structure_of(state, structure).smoothing, .mesh = with_mesh};
+        const SegmentOptions options{.smoothing = structure_of(state, structure).smoothing, .mesh = with_mesh, .drawn_on = image.grid};
         Segmentation made = segment(set, image.grid, asked(state, image), options, work);
         return {structure_of(state, structure), std::move(set), std::move(made)};
     }

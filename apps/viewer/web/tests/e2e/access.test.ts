@@ -40,6 +40,7 @@ const open = () => (opened ??= prepare());
 
 async function prepare(): Promise<void> {
   viewer = await visits.next();
+  await viewer.page.setViewportSize({ width: 1440, height: 900 }); // the whole toolbar fits, by Firefox's letters, too
   await viewer.page.keyboard.press("f");
   for (const [i, [view, mm]] of (
     [

@@ -22,6 +22,7 @@ std::string type_text() {
     else if constexpr (std::is_same_v<Value, std::string>) return "str";
     else if constexpr (std::is_same_v<Value, std::array<double, 3>>) return "sequence of 3 float";
     else if constexpr (std::is_same_v<Value, Ball3>) return "(array_like, float)";
+    else if constexpr (std::is_same_v<Value, Grid>) return "Grid";
     else if constexpr (requires(Value value) { value.size(); })
         return "sequence of " + type_text<typename Value::value_type>();
     else return type_text<typename Value::value_type>() + " or None";

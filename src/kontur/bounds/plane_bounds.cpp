@@ -119,6 +119,7 @@ private:
         for (const auto& [apart_mm, index] : nearest_first(place, clear)) {
             const DrawnRegion& other = regions_[index];
             const double share = outside_per_mm(normal_, other.section.plane.normal);
+            const double crossing = crosses(normal_, other.section.plane.normal);
             if (share * apart_mm >= nearest && surely(apart_mm / clear) <= std::min(shown_before, shown_behind)) continue;
             other.places.visit_within(place, clear, [&](const Vec3& shown) {
                 const double apart = distance(shown, place);
@@ -126,11 +127,18 @@ private:
                 nearest = std::min(nearest, share * apart);
                 const double ahead = dot(shown - place, normal_);
                 double& side = ahead > 0 ? shown_before : shown_behind;
-                if (const double most = surely(apart / clear); most > side)
+                if (const double most = crossing * surely(apart / clear); most > side)
                     side = std::max(side, most * smooth_step(0, 0.5, std::abs(ahead / apart)));
             });
         }
         return {nearest, 1 - shown_before * shown_behind};
+    }
+
+    /// Whether another plane may show what this one cuts and leaves out, as rings across a vessel do: parallel ones do not.
+    static double crosses(const Vec3& normal, const Vec3& other) {
+        constexpr double kSine = 0.5;
+        const double cosine = dot(normal, other);
+        return smooth_step(0, kSine * kSine, 1 - cosine * cosine);
     }
 
     static double surely(double share_of_clear) { return 1 - smooth_step(kSurelyNear, 1, share_of_clear); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kontur/base/smooth_step.h"
 #include "kontur/bounds/plane_lattice.h"
@@ -61,7 +62,11 @@ private:
 class PlaneBounds {
 public:
     PlaneBounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, std::size_t index)
-        : image_(planes.image), ball_(planes.ball), regions_(regions), own_(regions[index]), normal_(own_.section.plane.normal) {}
+        : image_(planes.image),
+          ball_(planes.ball),
+          regions_(regions),
+          own_(regions[index]),
+          normal_(own_.section.plane.normal) {}
 
     std::vector<Bound> find() const {
         const Plane& plane = own_.section.plane;
@@ -76,6 +81,10 @@ public:
             if (const Point2 at{center[0] + x, center[1] + y}; !around.covers(at))
                 append(axes.to_plane(at), lattice.step_mm(), bounds);
         });
+        for (const double side : {-1.0, 1.0})
+            if (const DrawnRegion* const beside = parallel_beside(side))
+                for (const Probe& probe : beside->inside)
+                    append(plane.to_uv(beside->section.plane.from_uv(probe.at)), lattice.step_mm(), bounds);
         return bounds;
     }
 
@@ -85,6 +94,19 @@ private:
             bounds.push_back({.position = own_.section.plane.from_uv(probe.at),
                               .least_mm = kInside * probe.depth,
                               .noise_mm = kInsideNoise * probe.depth});
+    }
+
+    /// The nearest plane on a side that lies parallel to this one; none: nullptr. Where it shows the object and this one
+    /// does not, an island would grow between the places of the lattices.
+    const DrawnRegion* parallel_beside(double side) const {
+        const DrawnRegion* nearest = nullptr;
+        double least = std::numeric_limits<double>::infinity();
+        for (const DrawnRegion& other : regions_) {
+            if (&other == &own_ || crosses(normal_, other.section.plane.normal) == 1) continue;
+            const double ahead = side * own_.section.plane.distance_to(other.ball.center);
+            if (ahead > 0 && ahead < least) least = ahead, nearest = &other;
+        }
+        return nearest;
     }
 
     void append(const Point2& at, double step_mm, std::vector<Bound>& bounds) const {

@@ -241,6 +241,23 @@ TEST(DrawnOddly, APlaneNeedNotShowAllParts) {
     EXPECT_GT(turns.report.mask_volume_ml, 750);
 }
 
+TEST(DrawnOddly, BetweenTwoTeethOfACombNothingGrows) {
+    const auto rectangle = [](double z, double far) {
+        Contour contour;
+        contour.plane = make_plane({0, 0, z}, {0, 0, 1});
+        contour.points = {{0, 0, z}, {far, 0, z}, {far, 20, z}, {0, 20, z}};
+        return contour;
+    };
+    ContourSet comb;
+    for (const double z : {-10.0, 0.0, 10.0}) comb.contours.push_back(rectangle(z, z == 0 ? 15 : 60));
+    const Segmentation result = segmented(comb, 2, 20);
+    for (const double x : {22.0, 30.0, 40.0, 50.0}) {
+        EXPECT_LT(result.function.value({x, 10, 0}), 0) << x;
+        EXPECT_GT(result.function.value({x, 10, 10}), 0) << x;
+    }
+    EXPECT_LT(result.report.section_check.largest_wrong_share(), 0.02);
+}
+
 TEST(DrawnOddly, AnArchIsNotCutByItsOwnPlanes) {
     ContourSet arch;
     for (int i = 0; i < 9; ++i) {

@@ -18,14 +18,7 @@ add_custom_command(
   COMMENT "Writing manual pages and shell completions" VERBATIM)
 add_custom_target(kontur_command_documentation ALL DEPENDS ${folder}/done)
 
-# Compressed where it is installed, as Debian's policy wants it.
-install(CODE "
-  file(GLOB pages ${folder}/man1/*.1)
-  file(MAKE_DIRECTORY ${folder}/compressed)
-  foreach(page \${pages})
-    cmake_path(GET page FILENAME name)
-    execute_process(COMMAND ${KONTUR_GZIP} -9nc \${page} OUTPUT_FILE ${folder}/compressed/\${name}.gz COMMAND_ERROR_IS_FATAL ANY)
-  endforeach()" COMPONENT command_line)
+# Installing only reads: two that install from this build at once get whole files.
 install(DIRECTORY ${folder}/compressed/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command_line)
 install(FILES ${folder}/bash/kontur DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT command_line)
 install(FILES ${folder}/zsh/_kontur DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT command_line)

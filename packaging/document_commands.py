@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the manual pages and shell completions. Usage: document_commands.py PROGRAM VERSION FOLDER"""
+"""Writes the manual pages, also compressed, and shell completions. Usage: document_commands.py PROGRAM VERSION FOLDER"""
+import gzip
 import pathlib
 import sys
 
@@ -19,6 +20,11 @@ def main(program, version, folder):
         path = pathlib.Path(folder) / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
+        if path.parent.name == "man1":
+            # As Debian's policy wants them installed; without a time of their own, so that the same pages are the same bytes.
+            compressed = pathlib.Path(folder) / "compressed" / f"{path.name}.gz"
+            compressed.parent.mkdir(exist_ok=True)
+            compressed.write_bytes(gzip.compress(text.encode(), 9, mtime=0))
 
 
 if __name__ == "__main__":

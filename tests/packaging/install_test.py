@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Another program builds against what is installed, by CMake and by pkg-config, and runs."""
+import gzip
 import os
 import pathlib
 import re
@@ -42,6 +43,21 @@ def expect_output(program, libraries):
     volume, kind = run(program, env={**os.environ, "LD_LIBRARY_PATH": str(libraries)}).split()
     assert 100 < float(volume) < 150  # the kidney has 124 ml
     assert kind == "invalid_input"
+
+
+def test_installing_writes_nothing_that_another_installs(tmp_path):
+    """Tests and cpack install from one build at once. A manual page that one of them was compressing was empty for another."""
+    def documentation():
+        return {path: (path.stat().st_ino, path.stat().st_mtime_ns) for path in (BUILD / "command_documentation").rglob("*")}
+
+    before = documentation()
+    run("cmake", "--install", BUILD, "--prefix", tmp_path, "--component", "command_line")
+    assert documentation() == before
+    pages = list(tmp_path.rglob("man1/*.1.gz"))
+    assert len(pages) > 10
+    for page in pages:
+        text = gzip.decompress(page.read_bytes())
+        assert text == (BUILD / "command_documentation/man1" / page.stem).read_bytes() and text.startswith(b".TH ")
 
 
 def test_a_cmake_project_finds_it(prefix, libraries, tmp_path):

@@ -8,6 +8,7 @@
 #include "kontur/drawing/orient.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/fit/prepare.h"
+#include "kontur/phantom/dense_liver.h"
 #include "kontur/solve/kernel_matrix.h"
 #include "kontur/solve/solve.h"
 #include "machine.h"

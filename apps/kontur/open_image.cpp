@@ -12,6 +12,7 @@
 #include "kontur/io/image.h"
 #include "kontur/io/images/frame_needed.h"
 #include "kontur/phantom/phantom.h"
+#include "kontur/phantom/volumes.h"
 #include "open_words.h"
 #include "viewer/images/image_identity.h"
 #include "viewer/server/workspace.h"

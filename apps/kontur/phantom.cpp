@@ -13,6 +13,7 @@
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/phantom/cases.h"
+#include "kontur/phantom/volumes.h"
 #include "outputs.h"
 
 namespace kontur::app {

@@ -7,7 +7,7 @@
 
 #include "kontur/base/machine_memory.h"
 #include "kontur/io/meshes/region_mesh.h"
-#include "kontur/report.h"
+#include "kontur/segment_report.h"
 #include "own_grid.h"
 
 namespace kontur::app {

@@ -22,7 +22,7 @@
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/bytes/png.h"
 #include "kontur/io/meshes/mesh.h"
-#include "kontur/report.h"
+#include "kontur/segment_report.h"
 #include "kontur/sureness/surface_evidence.h"
 #include "kontur/sureness/surface_uncertainty.h"
 #include "kontur/sureness/uncertainty_map.h"

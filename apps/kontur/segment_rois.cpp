@@ -21,7 +21,7 @@
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/labels/boxed_mask.h"
 #include "kontur/labels/section_contours.h"
-#include "kontur/report.h"
+#include "kontur/segment_report.h"
 #include "kontur/segment_together.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"

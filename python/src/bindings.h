@@ -4,7 +4,8 @@
 #include "define.h"
 #include "run.h"
 
-// One function for each source: it adds its part of the library to the module, or to its submodule of stages. Types come before what uses them.
+// One function for each source: it adds its part of the library to the module, or to its submodule of stages. Types come
+// before what uses them.
 
 namespace kontur::python {
 
@@ -39,7 +40,7 @@ void bind_images(py::module_& m);
 void bind_attributes(py::module_& m);
 void bind_dicom(py::module_& m);
 void bind_segmentations(py::module_& m);
-void bind_phantom(py::module_& m);
+void bind_phantom(py::module_& m, py::module_& stages);
 
 /// Shape (z, y, x) of an array over the grid.
 inline std::vector<py::ssize_t> array_shape(const Grid& grid) { return {grid.size.k, grid.size.j, grid.size.i}; }

@@ -77,5 +77,5 @@ PYBIND11_MODULE(_core, m) {
     bind_images(m);
     bind_dicom(m);
     bind_segmentations(m);
-    bind_phantom(m);
+    bind_phantom(m, stages);
 }

@@ -4,6 +4,8 @@
 #include "kontur/base/counted.h"
 #include "kontur/phantom/bodies.h"
 #include "kontur/phantom/cases.h"
+#include "kontur/phantom/dense_liver.h"
+#include "kontur/phantom/volumes.h"
 
 namespace kontur::python {
 namespace {
@@ -34,7 +36,7 @@ void bind_body(py::module_& m) {
 
 }  // namespace
 
-void bind_phantom(py::module_& m) {
+void bind_phantom(py::module_& m, py::module_& stages) {
     bind_body(m);
     py::class_<PhantomCase> phantom(m, "PhantomCase",
                                     "A contour set of the phantom with everything needed to judge a segmentation.");
@@ -49,7 +51,7 @@ void bind_phantom(py::module_& m) {
         return py::str("<PhantomCase {!r}: {}>").format(c.name, counted(c.contours.contours.size(), "contour"));
     });
 
-    py::class_<PhantomVolume> volume(m, "PhantomVolume", "A scan of the phantom.");
+    py::class_<PhantomVolume> volume(stages, "PhantomVolume", "A scan of the phantom.");
     volume.def_readonly("name", &PhantomVolume::name, "str");
     volume.def_readonly("note", &PhantomVolume::note, "str: what it shows.");
     volume.def_readonly("grid", &PhantomVolume::grid, "Grid");
@@ -76,14 +78,14 @@ Parameters
 @options
 )",
         KeywordText(liver));
-    m.def(
+    stages.def(
         "dense_liver_case",
         [liver](const py::kwargs& given) {
             const DenseLiver options = liver.parse("dense_liver_case", given);
             return unlocked([&] { return dense_liver_case(options); });
         },
         liver_doc.c_str());
-    define(m, "phantom_volumes", "The scans that `kontur phantom` writes: list of PhantomVolume.", &phantom_volumes);
+    define(stages, "phantom_volumes", "The scans that `kontur phantom` writes: list of PhantomVolume.", &phantom_volumes);
 
     const auto keywords = Keywords<PhantomOptions>()
                               .field("seed", &PhantomOptions::seed, "Of the noise.")

@@ -4,7 +4,7 @@
 #include "bindings.h"
 #include "fields.h"
 #include "kontur/base/counted.h"
-#include "kontur/report.h"
+#include "kontur/segment_report.h"
 #include "kontur/view/picture.h"
 #include "provenance.h"
 #include "segment_keywords.h"

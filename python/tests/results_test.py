@@ -121,7 +121,7 @@ def test_reprs_are_short_and_tell_the_figures(case, kidney, image):
     assert "float32" in repr(image)
     crossing = kontur.stages.find_crossings(kontur.phantom_case("liver_orthogonal14").contours)[0]
     agreement = kontur.compare(kidney.mask, kidney.mask)
-    for value in (case, kontur.phantom_volumes()[0], kontur.SurfacePoint([1, 2, 3]), kidney, kidney.report, kidney.mask,
+    for value in (case, kontur.stages.phantom_volumes()[0], kontur.SurfacePoint([1, 2, 3]), kidney, kidney.report, kidney.mask,
                   kidney.function, kidney.mesh, image, case.grid, case.contours,
                   case.contours[0], crossing, kontur.stages.disagreement([crossing]), kidney.report.residual, agreement,
                   agreement.surface, kontur.topology(kidney.mesh)):

@@ -176,7 +176,7 @@ def test_an_editor_left_open_does_not_keep_python_from_ending(tmp_path):
 
 
 def test_fast_functions_agree_with_direct_sums_and_survive_a_stop():
-    case = kontur.dense_liver_case(points=4000)
+    case = kontur.stages.dense_liver_case(points=4000)
     grid = kontur.grid_around(case.contours.bounding_box, [10, 10, 10], 0)
     function = kontur.segment(case.contours, grid).function
     points = numpy.random.default_rng(1).uniform(*case.contours.bounding_box, (200_000, 3))

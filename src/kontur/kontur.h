@@ -36,7 +36,6 @@
 #include "kontur/editor.h"
 #include "kontur/fill_labels.h"
 #include "kontur/live_editor.h"
-#include "kontur/report.h"
 #include "kontur/segment.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"

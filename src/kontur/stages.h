@@ -40,5 +40,9 @@
 #include "kontur/shape/spline.h"
 #include "kontur/view/livewire.h"
 
+// Contours and scans of the phantom for measuring, beside its cases.
+#include "kontur/phantom/dense_liver.h"
+#include "kontur/phantom/volumes.h"
+
 // The result against its own drawing.
 #include "kontur/drawing_check.h"

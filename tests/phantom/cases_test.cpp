@@ -8,6 +8,7 @@
 #include <map>
 
 #include "kontur/base/error.h"
+#include "kontur/phantom/dense_liver.h"
 
 namespace kontur {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "kontur/phantom/frames.h"
 #include "kontur/phantom/noise.h"
+#include "kontur/phantom/volumes.h"
 #include "support/expect_error.h"
 
 namespace kontur {

@@ -15,6 +15,7 @@
 #include "kontur/io/contours/markups.h"
 #include "kontur/kontur.h"
 #include "kontur/measure/components.h"
+#include "kontur/phantom/dense_liver.h"
 #include "kontur/stages.h"
 #include "kontur/view/shade.h"
 #include "support/contour_sets.h"

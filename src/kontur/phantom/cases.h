@@ -24,19 +24,6 @@ struct PhantomCase {
     std::vector<std::vector<Vec3>> normals;
 };
 
-/// How a liver of many contours is drawn.
-struct DenseLiver {
-    std::size_t points = 25000;  ///< of all contours together
-    bool orthogonal = false;  ///< in planes across all three axes, which contradict each other where hands drew them; else
-                              ///< in axial planes
-    bool by_hand = false;
-};
-
-/// A liver cut by more planes the more points there are: about 90 parallel ones for 25,000 points, which at 1.3 mm from
-/// point to point are as many as the liver's surface carries; for more points the liver is enlarged instead. For
-/// measuring how time and memory grow. Throws Error(invalid_input) for fewer than 100 points.
-PhantomCase dense_liver_case(const DenseLiver& options);
-
 /// Names of all cases. Those ending in "_hand" displace the points of the case they are named after within their planes as
 /// an unsteady hand does: 0.6 mm rms (metastasis and vertebra 0.24 mm) in waves along the contour and a little jitter.
 std::vector<std::string> phantom_case_names();

@@ -119,16 +119,16 @@ void displace(Contour& contour, const Body& body, const HandOptions& options, Ra
 std::vector<Vec3> resample_closed(std::span<const Vec3> points, std::size_t count) {
     const double spacing = line_length(points, true) / static_cast<double>(count);
     std::vector<Vec3> result;
-    double walked = 0;
+    double way = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3 &a = points[i], &b = points[(i + 1) % points.size()];
         const double length = distance(a, b);
         while (result.size() < count) {
             const double target = (static_cast<double>(result.size()) + 0.5) * spacing;
-            if (target > walked + length) break;
-            result.push_back(a + (target - walked) / length * (b - a));
+            if (target > way + length) break;
+            result.push_back(a + (target - way) / length * (b - a));
         }
-        walked += length;
+        way += length;
     }
     return result;
 }
@@ -145,6 +145,15 @@ ContourSet draw_sections(const Body& body, std::span<const Plane> planes, std::s
         for (Vec3& p : contour.points) p = project_in_plane(body, contour.plane, p);
     }
     return set;
+}
+
+std::vector<std::vector<Vec3>> surface_normals(const Body& body, const ContourSet& set) {
+    std::vector<std::vector<Vec3>> normals;
+    for (const Contour& contour : set.contours) {
+        auto& of_contour = normals.emplace_back();
+        for (const Vec3& p : contour.points) of_contour.push_back(body.outward_normal(p));
+    }
+    return normals;
 }
 
 ContourSet drawn_by_hand(ContourSet contours, const Body& body, const HandOptions& options, Random& random) {

@@ -18,6 +18,9 @@ std::vector<Vec3> resample_closed(std::span<const Vec3> points, std::size_t coun
 /// within 1e-9 mm. Sections smaller than 10 mm^2 are left out.
 ContourSet draw_sections(const Body& body, std::span<const Plane> planes, std::size_t point_count);
 
+/// The body's unit outward normals at each contour's points.
+std::vector<std::vector<Vec3>> surface_normals(const Body& body, const ContourSet& set);
+
 /// The imprecision of freehand drawing.
 struct HandOptions {
     double rms_mm = 0.6;           ///< displacement along the contour's in-plane normal, in waves

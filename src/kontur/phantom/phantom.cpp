@@ -8,7 +8,6 @@
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
 #include "kontur/phantom/anatomy.h"
-#include "kontur/phantom/frames.h"
 #include "kontur/phantom/noise.h"
 
 namespace kontur {
@@ -39,12 +38,12 @@ public:
 
     void paint_row(std::int64_t j, std::int64_t k, std::int16_t* row) const {
         const Box3 box = row_box(grid_, j, k);
-        std::vector<const Tissue*> met;
+        std::vector<const Tissue*> tissues;
         for (const Tissue& tissue : tissues_)
-            if (overlap(tissue.bounds, box)) met.push_back(&tissue);
+            if (overlap(tissue.bounds, box)) tissues.push_back(&tissue);
         const std::vector<double> noise = noise_.row(j, k);
         for (std::int64_t i = 0; i < grid_.size.i; ++i) {
-            const double hu = density(grid_.center_mm(i, j, k), met) + noise[static_cast<std::size_t>(i)];
+            const double hu = density(grid_.center_mm(i, j, k), tissues) + noise[static_cast<std::size_t>(i)];
             row[i] = static_cast<std::int16_t>(std::clamp(std::round(hu), -1024.0, 3071.0));
         }
     }
@@ -70,13 +69,6 @@ private:
     std::vector<Tissue> tissues_;
     double edge_mm_;
 };
-
-constexpr Vec3 kAbdomenSpacing_mm{1.2, 1.2, 3};
-
-Grid abdomen_grid() { return grid_around({{-198, -138, -108}, {198, 126, 100}}, kAbdomenSpacing_mm, 0); }
-
-/// Taller, so that the turned slices still cover every body.
-Grid oblique_abdomen_grid() { return oblique(grid_around({{-198, -138, -140}, {198, 126, 132}}, kAbdomenSpacing_mm, 0)); }
 
 }  // namespace
 
@@ -109,14 +101,6 @@ Mask make_truth_mask(const Body& body, const Grid& grid, const Work& work) {
         }
     });
     return mask;
-}
-
-std::vector<PhantomVolume> phantom_volumes() {
-    return {
-        {"abdomen", "the whole upper abdomen in axial slices of 3 mm", abdomen_grid(), phantom_bodies()},
-        {"abdomen_oblique", "the same in slices turned by 20, 10 and 5 degrees", oblique_abdomen_grid(), phantom_bodies()},
-        {"liver", "the liver's surroundings on the grid of its contour sets", liver_grid(), {liver(), metastasis()}},
-        {"metastasis", "the metastasis's surroundings on the grid of its contour sets", metastasis_grid(), {metastasis()}}};
 }
 
 }  // namespace kontur

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -23,17 +22,5 @@ Image make_phantom_image(const Grid& grid, const PhantomOptions& options = {}, c
 
 /// The voxels whose centres lie inside the body.
 Mask make_truth_mask(const Body& body, const Grid& grid, const Work& work = {});
-
-/// A scan of the phantom.
-struct PhantomVolume {
-    std::string name;
-    std::string note;  ///< one sentence: what it shows
-    Grid grid;
-    std::vector<Body> bodies;  ///< those that it shows whole
-};
-
-/// The scans to write: "abdomen" (axis-aligned), "abdomen_oblique", "liver" (the grid of the liver's cases) and
-/// "metastasis". The contour sets of phantom_case_names() lie in the same frame.
-std::vector<PhantomVolume> phantom_volumes();
 
 }  // namespace kontur

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/report.h"
+#include "kontur/segment_report.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -105,9 +105,14 @@ Array read_only(Array array) {
     return array;
 }
 
-/// One of an enumeration's values, as the word that the command line has for it.
+/// The `values` of an enumeration that are words in Python: those that the command line has for them.
 template <class Enum>
 struct Words;
+
+template <class Enum>
+concept HasWords = requires {
+    Words<Enum>::values;
+};
 
 template <>
 struct Words<Kernel> {
@@ -171,8 +176,8 @@ namespace pybind11::detail {
 template <>
 struct is_copy_constructible<kontur::SurfaceLattice> : std::false_type {};
 
-template <class Enum>
-struct word_caster {
+template <kontur::python::HasWords Enum>
+struct type_caster<Enum> {
     PYBIND11_TYPE_CASTER(Enum, const_name("str"));
 
     bool load(handle source, bool) {
@@ -188,23 +193,6 @@ struct word_caster {
     }
     static handle cast(Enum source, return_value_policy, handle) { return str(kontur::python::word_of(source)).release(); }
 };
-
-template <>
-struct type_caster<kontur::Kernel> : word_caster<kontur::Kernel> {};
-template <>
-struct type_caster<kontur::Normals> : word_caster<kontur::Normals> {};
-template <>
-struct type_caster<kontur::Solver> : word_caster<kontur::Solver> {};
-template <>
-struct type_caster<kontur::Voxelizer> : word_caster<kontur::Voxelizer> {};
-template <>
-struct type_caster<kontur::NiftiTransform> : word_caster<kontur::NiftiTransform> {};
-template <>
-struct type_caster<kontur::ContourEnd> : word_caster<kontur::ContourEnd> {};
-template <>
-struct type_caster<kontur::Hand> : word_caster<kontur::Hand> {};
-template <>
-struct type_caster<kontur::HoleEncoding> : word_caster<kontur::HoleEncoding> {};
 
 template <>
 struct type_caster<kontur::python::ExistingPath> {
@@ -314,9 +302,8 @@ struct type_caster<kontur::Box3> {
         if (!corners.load(source, convert)) return false;
         const auto& c = cast_op<std::vector<kontur::Vec3>&>(corners);
         if (c.size() != 2)
-            throw kontur::Error(
-                kontur::ErrorKind::invalid_input,
-                "a box has " + std::to_string(c.size()) + " corners; the lowest and the highest are needed");
+            throw kontur::Error(kontur::ErrorKind::invalid_input,
+                                "a box has " + std::to_string(c.size()) + " corners; the lowest and the highest are needed");
         value = {c[0], c[1]};
         return true;
     }

@@ -16,16 +16,6 @@ struct Words<CorrectionKind> {
                                        CorrectionKind::confirmed};
 };
 
-}  // namespace kontur::python
-
-namespace pybind11::detail {
-
-template <>
-struct type_caster<kontur::CorrectionKind> : word_caster<kontur::CorrectionKind> {};
-
-}  // namespace pybind11::detail
-
-namespace kontur::python {
 namespace {
 
 Keywords<CorrectOptions> correct_keywords() {
@@ -83,17 +73,17 @@ void bind_report(py::module_& m) {
 
 void bind_corrections(py::module_& m) {
     bind_report(m);
-    py::class_<CorrectedMask> corrected(m, "CorrectedMask", "A corrected mask, and how its voxels came to be what they are.");
-    Fields(corrected)
-        .field("mask", &CorrectedMask::mask, "Mask")
-        .field("report", &CorrectedMask::report, "CorrectReport");
+    py::class_<CorrectedMask> corrected(m, "CorrectedMask",
+                                        "A corrected mask, and how its voxels came to be what they are.");
+    Fields(corrected).field("mask", &CorrectedMask::mask, "Mask").field("report", &CorrectedMask::report, "CorrectReport");
     corrected.def_property_readonly(
         "origin",
         [](const py::object& self) {
             const auto& c = self.cast<const CorrectedMask&>();
             return array_view(c.origin.data(), array_shape(c.mask.grid), self);
         },
-        "ndarray of uint8, shape (z, y, x): 0 outside and 1 inside as before, 2 added and 3 removed in drawn planes, 4 added "
+        "ndarray of uint8, shape (z, y, x): 0 outside and 1 inside as before, 2 added and 3 removed in drawn planes, 4 "
+        "added "
         "and 5 removed beside them, 6 added and 7 removed by the image.");
     const auto keywords = correct_keywords();
     define(
@@ -143,17 +133,14 @@ Examples
 True
 )",
         [keywords](const Mask& mask, const ContourSet& corrections, const std::vector<Plane>& confirmed, const Image* image,
-                   int threads,
-                   const py::object& progress, const py::object& stop, const py::kwargs& given) {
+                   int threads, const py::object& progress, const py::object& stop, const py::kwargs& given) {
             const CorrectOptions options = keywords.parse("correct", given);
-            return run({progress, stop, threads},
-                       [&](const Work& work) {
-                           return correct({mask, ExistingSurface(mask, work), image}, {corrections, confirmed}, options, work);
-                       });
+            return run({progress, stop, threads}, [&](const Work& work) {
+                return correct({mask, ExistingSurface(mask, work), image}, {corrections, confirmed}, options, work);
+            });
         },
         py::arg("mask"), py::arg("corrections"), py::kw_only(), py::arg("confirmed") = std::vector<Plane>{},
-        py::arg("image") = py::none(), kThreads,
-        kProgress, kStop, KeywordText(keywords));
+        py::arg("image") = py::none(), kThreads, kProgress, kStop, KeywordText(keywords));
 }
 
 }  // namespace kontur::python

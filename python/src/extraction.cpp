@@ -34,64 +34,49 @@ void bind_lattice(py::module_& stages) {
     lattice.def_readonly("evaluations", &SurfaceLattice::evaluations, "int: function values computed.");
 }
 
+/// One of the two ways to follow the surface; `summary` begins the docstring.
+void bind_tracking(py::module_& stages, const char* name, const std::string& summary,
+                   SurfaceLattice (*track)(const ImplicitFunction&, const Grid&, std::span<const Vec3>, const Work&)) {
+    const std::string doc = summary + R"(
+
+Parameters
+----------
+function : ImplicitFunction
+grid : Grid
+starts : array_like, shape (n, 3)
+    mm (LPS); those outside of the grid are ignored.
+threads : int
+    0: the machine's.
+@progress
+
+Returns
+-------
+SurfaceLattice
+    For `fill` and `polygonize`.
+)";
+    define(
+        stages, name, doc.c_str(),
+        [track](const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts, int threads,
+                const py::object& progress, const py::object& stop) {
+            return run({progress, stop, threads}, [&](const Work& work) { return track(function, grid, starts, work); });
+        },
+        py::arg("function"), py::arg("grid"), py::arg("starts"), kThreads, py::kw_only(), kProgress, kStop);
+}
+
 }  // namespace
 
 void bind_extraction(py::module_& m, py::module_& stages) {
     bind_lattice(stages);
-    define(
-        stages, "track_surface", R"(Follows the surface from points on it.
-
-Parameters
-----------
-function : ImplicitFunction
-grid : Grid
-starts : array_like, shape (n, 3)
-    mm (LPS); those outside of the grid are ignored.
-threads : int
-    0: the machine's.
-@progress
-
-Returns
--------
-SurfaceLattice
-    For `fill` and `polygonize`.
-)",
-        [](const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts, int threads,
-           const py::object& progress, const py::object& stop) {
-            return run({progress, stop, threads},
-                       [&](const Work& work) { return track_surface(function, grid, starts, work); });
-        },
-        py::arg("function"), py::arg("grid"), py::arg("starts"), kThreads, py::kw_only(), kProgress, kStop);
-    define(
-        stages, "track_surface_adaptively",
-        R"(Follows the surface as `track_surface` does, from a fraction of the function values.
+    bind_tracking(stages, "track_surface", "Follows the surface from points on it.", &track_surface);
+    bind_tracking(stages, "track_surface_adaptively",
+                  R"(Follows the surface as `track_surface` does, from a fraction of the function values.
 
 A coarse lattice first, then interpolation; values where that leaves the sign in doubt. Masks differ from those of
-`track_surface` in a few voxels of a million. What `segment` does.
-
-Parameters
-----------
-function : ImplicitFunction
-grid : Grid
-starts : array_like, shape (n, 3)
-    mm (LPS); those outside of the grid are ignored.
-threads : int
-    0: the machine's.
-@progress
-
-Returns
--------
-SurfaceLattice
-    For `fill` and `polygonize`.
-)",
-        [](const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts, int threads,
-           const py::object& progress, const py::object& stop) {
-            return run({progress, stop, threads},
-                       [&](const Work& work) { return track_surface_adaptively(function, grid, starts, work); });
-        },
-        py::arg("function"), py::arg("grid"), py::arg("starts"), kThreads, py::kw_only(), kProgress, kStop);
+`track_surface` in a few voxels of a million. What `segment` does.)",
+                  &track_surface_adaptively);
     define(
-        stages, "preview_surface", R"(The surface through the starts on a lattice of its own, whatever grid a mask would have.
+        stages, "preview_surface",
+        R"(The surface through the starts on a lattice of its own, whatever grid a mask would have.
 
 Parameters
 ----------

@@ -15,12 +15,6 @@ struct Words<Curves> {
     static constexpr std::array values{Curves::spline, Curves::polygon};
 };
 
-}  // namespace kontur::python
-
-template <>
-struct pybind11::detail::type_caster<kontur::Curves> : word_caster<kontur::Curves> {};
-
-namespace kontur::python {
 namespace {
 
 namespace fs = std::filesystem;

@@ -16,16 +16,6 @@ struct Words<FillEnds> {
     static constexpr std::array values{FillEnds::closed, FillEnds::half, FillEnds::open};
 };
 
-}  // namespace kontur::python
-
-namespace pybind11::detail {
-
-template <>
-struct type_caster<kontur::FillEnds> : word_caster<kontur::FillEnds> {};
-
-}  // namespace pybind11::detail
-
-namespace kontur::python {
 namespace {
 
 Keywords<FillOptions> fill_keywords() {

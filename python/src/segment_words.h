@@ -36,22 +36,3 @@ struct Words<ImageVerdict> {
 };
 
 }  // namespace kontur::python
-
-namespace pybind11::detail {
-
-template <>
-struct type_caster<kontur::UseImage> : word_caster<kontur::UseImage> {};
-
-template <>
-struct type_caster<kontur::ImageVerdict> : word_caster<kontur::ImageVerdict> {};
-
-template <>
-struct type_caster<kontur::Conflicts> : word_caster<kontur::Conflicts> {};
-
-template <>
-struct type_caster<kontur::Corners> : word_caster<kontur::Corners> {};
-
-template <>
-struct type_caster<kontur::FillRule> : word_caster<kontur::FillRule> {};
-
-}  // namespace pybind11::detail

@@ -14,16 +14,6 @@ struct Words<Relation> {
     static constexpr std::array values{Relation::exclusive, Relation::inside, Relation::overlap};
 };
 
-}  // namespace kontur::python
-
-namespace pybind11::detail {
-
-template <>
-struct type_caster<kontur::Relation> : word_caster<kontur::Relation> {};
-
-}  // namespace pybind11::detail
-
-namespace kontur::python {
 namespace {
 
 /// A structure by its position or by its name.
@@ -67,8 +57,9 @@ void bind_types(py::module_& m) {
                       "list of StructurePair: those whose masks share voxels or faces, and those of the rules.");
     type.def_readonly("contested_voxels", &Together::contested_voxels, "int: claimed by two that exclude each other.");
     type.def_readonly("closed_voxels", &Together::closed_voxels, "int: of gaps between them.");
-    type.def_readonly("borrowed_points", &Together::borrowed_points,
-                      "int: of borders that a neighbour alone has drawn in a plane, to which a structure was fitted once more.");
+    type.def_readonly(
+        "borrowed_points", &Together::borrowed_points,
+        "int: of borders that a neighbour alone has drawn in a plane, to which a structure was fitted once more.");
     method(
         type, "mask", R"(The mask of one of them on the whole grid.
 

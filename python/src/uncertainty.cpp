@@ -10,16 +10,6 @@ struct Words<PlaneChoice> {
     static constexpr std::array values{PlaneChoice::any, PlaneChoice::image_slices};
 };
 
-}  // namespace kontur::python
-
-namespace pybind11::detail {
-
-template <>
-struct type_caster<kontur::PlaneChoice> : word_caster<kontur::PlaneChoice> {};
-
-}  // namespace pybind11::detail
-
-namespace kontur::python {
 namespace {
 
 void bind_dice(py::module_& m) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/bounds/section_probes.h"
+#include "support/polygons.h"
 
 #include <gtest/gtest.h>
 
@@ -8,21 +9,13 @@
 namespace kontur {
 namespace {
 
+using test::figure_of_eight;
+
 Polygon2 circle(double radius, int points = 180, double turned = 0) {
     Polygon2 line;
     for (int i = 0; i < points; ++i)
         line.push_back(
             {radius * std::cos(turned + 2 * M_PI * i / points), radius * std::sin(turned + 2 * M_PI * i / points)});
-    return line;
-}
-
-/// Two lobes of 10 mm, its signed area is 0.
-Polygon2 figure_of_eight() {
-    Polygon2 line;
-    for (int i = 0; i < 240; ++i) {
-        const double t = 2 * M_PI * (i + 0.5) / 240;
-        line.push_back({20 * std::sin(t), 10 * std::sin(2 * t)});
-    }
     return line;
 }
 

@@ -10,8 +10,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::expect_error;
 
-constexpr double kDoubleErrorMm = 1e-9;
-
 /// A raw file of 2 x 2 x 2 bytes, by its header lines.
 class MetaImageLines : public ::testing::Test {
 protected:
@@ -39,48 +37,6 @@ protected:
     std::string voxels = "12345678";
     ReadImageOptions options;
 };
-
-TEST(MetaImage, WriteThenReadIsIdentityInAllOrientations) {
-    const test::TemporaryFolder folder;
-    for (const Grid& grid : test::all_orientations()) {
-        const Image image = test::pattern_image<std::int16_t>(grid);
-        write_metaimage(folder / "a.mha", image);
-        const Image again = read_metaimage(folder / "a.mha");
-        EXPECT_LT(corner_distance_mm(again.grid, image.grid), 1e-12);
-        EXPECT_EQ(again.samples, image.samples);
-        EXPECT_EQ(read_metaimage_grid(folder / "a.mha"), again.grid);
-    }
-}
-
-TEST(MetaImage, IndependentReaderReadsWhatIsWritten) {
-    const test::TemporaryFolder folder;
-    int number = 0;
-    const auto write = [&](const Image& image) {
-        const fs::path path = folder / (std::to_string(number++) + ".mha");
-        write_metaimage(path, image);
-        test::write_expectation(path, image, kDoubleErrorMm);
-    };
-    for (const Grid& grid : test::all_orientations()) write(test::pattern_image<std::int16_t>(grid));
-    const Grid grid = test::all_orientations().back();
-    write(test::pattern_image<std::uint8_t>(grid));
-    write(test::pattern_image<std::uint16_t>(grid));
-    write(test::pattern_image<std::int32_t>(grid));
-    write(test::pattern_image<float>(grid));
-    test::run_image_oracle("check", folder.path());
-}
-
-TEST(MetaImage, ReadsWhatAnIndependentWriterWrites) {
-    const test::TemporaryFolder folder;
-    test::run_image_oracle("make-metaimage", folder.path());
-    EXPECT_EQ(test::compare_with_expectations(folder.path(), [](const fs::path& path) { return read_metaimage(path); }), 59);
-}
-
-TEST(MetaImage, RejectsEveryTruncatedPrefix) {
-    const test::TemporaryFolder folder;
-    write_metaimage(folder / "whole.mha", test::pattern_image<std::int16_t>(test::all_orientations()[50]));
-    test::expect_prefixes_refused(folder / "whole.mha", folder / "part.mha",
-                                  [](const fs::path& path) { read_metaimage(path); });
-}
 
 TEST_F(MetaImageLines, EveryTruncatedPrefixOfRawIsRefused) {
     ASSERT_NO_THROW(read());

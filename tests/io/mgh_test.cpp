@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/images/mgh.h"
 
-#include <limits>
-
 #include "image_cases.h"
 #include "support/temporary_folder.h"
 
@@ -11,70 +9,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::expect_error;
-
-/// Single precision at the origin's distance, twice.
-constexpr double kFloatErrorMm = 1e-3;
-
-TEST(Mgh, WriteThenReadIsIdentityInAllOrientations) {
-    const test::TemporaryFolder folder;
-    int number = 0;
-    for (const Grid& grid : test::all_orientations())
-        for (const char* suffix : {".mgh", ".mgz"}) {
-            const fs::path path = folder / (std::to_string(number++) + suffix);
-            const Image image = test::pattern_image<std::int16_t>(grid);
-            write_mgh(path, image);
-            const Image again = read_mgh(path);
-            EXPECT_LT(corner_distance_mm(image.grid, again.grid), kFloatErrorMm) << path;
-            EXPECT_EQ(read_mgh_grid(path), again.grid) << path;
-            EXPECT_EQ(again.samples, image.samples) << path;
-        }
-}
-
-TEST(Mgh, KeepsEveryValue) {
-    const test::TemporaryFolder folder;
-    const Grid grid = test::all_orientations()[5];
-    const auto check = [&](const Image& image) {
-        write_mgh(folder / "a.mgz", image);
-        test::expect_same_values(read_mgh(folder / "a.mgz"), image, "sample type " + std::to_string(image.samples.index()));
-    };
-    check(test::pattern_image<std::uint8_t>(grid));
-    check(test::pattern_image<std::int16_t>(grid));
-    check(test::pattern_image<float>(grid));
-    Image labels = test::pattern_image<std::uint16_t>(grid);
-    std::get<std::vector<std::uint16_t>>(labels.samples)[3] = 65535;
-    check(labels);
-    Image large = test::pattern_image<std::int32_t>(grid);
-    std::get<std::vector<std::int32_t>>(large.samples)[3] = std::numeric_limits<std::int32_t>::min();
-    check(large);
-}
-
-TEST(Mgh, NibabelReadsWhatIsWritten) {
-    const test::TemporaryFolder folder;
-    int number = 0;
-    const auto write = [&](const Image& image) {
-        const fs::path path = folder / (std::to_string(number) + (number % 2 ? ".mgh" : ".mgz"));
-        ImageView view(image);
-        if (number % 3 == 0) view.provenance = {{"made_by", "kontur"}};
-        write_mgh(path, view);
-        Image stored = image;
-        stored.grid = read_mgh_grid(path);
-        test::write_expectation(path, stored, 1e-4);  // nibabel computes with single precision
-        ++number;
-    };
-    for (const Grid& grid : test::all_orientations()) write(test::pattern_image<std::int16_t>(grid));
-    const Grid grid = test::all_orientations().back();
-    write(test::pattern_image<std::uint8_t>(grid));
-    write(test::pattern_image<std::uint16_t>(grid));
-    write(test::pattern_image<std::int32_t>(grid));
-    write(test::pattern_image<float>(grid));
-    test::run_image_oracle("check", folder.path());
-}
-
-TEST(Mgh, ReadsWhatNibabelWrites) {
-    const test::TemporaryFolder folder;
-    test::run_image_oracle("make-mgh", folder.path());
-    EXPECT_EQ(test::compare_with_expectations(folder.path(), [](const fs::path& path) { return read_mgh(path); }), 22);
-}
 
 TEST(Mgh, AHeaderWithoutGeometryIsReadAsFreeSurferDoesOnlyWhenTold) {
     const test::TemporaryFolder folder;

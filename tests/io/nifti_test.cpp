@@ -18,9 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::expect_error;
 
-/// Single precision of the header at the origin's distance, twice.
-constexpr double kFloatErrorMm = 5e-4;
-
 template <typename Value>
 void put(std::string& bytes, std::size_t offset, Value value) {
     std::memcpy(bytes.data() + offset, &value, sizeof(value));
@@ -44,66 +41,15 @@ protected:
     ReadImageOptions options;
 };
 
-TEST(Nifti, WriteThenReadIsIdentityInAllOrientations) {
+TEST(Nifti, NibabelReadsMoreVoxelsInARowThanAShortHolds) {
     const test::TemporaryFolder folder;
-    int number = 0;
-    for (const Grid& grid : test::all_orientations())
-        for (const char* suffix : {".nii", ".nii.gz"}) {
-            const std::string name = std::to_string(number++) + suffix;
-            const Image image = test::pattern_image<std::int16_t>(grid);
-            write_nifti(folder / name, image);
-            const Image again = read_nifti(folder / name);
-            EXPECT_LT(corner_distance_mm(image.grid, again.grid), kFloatErrorMm) << name;
-            EXPECT_LT(corner_distance_mm(read_nifti_grid(folder / name), again.grid), 1e-12) << name;
-            EXPECT_EQ(again.samples, image.samples) << name;
-        }
-}
-
-TEST(Nifti, KeepsEverySampleType) {
-    const test::TemporaryFolder folder;
-    const Grid grid = test::all_orientations()[5];
-    const auto check = [&](const Image& image) {
-        write_nifti(folder / "a.nii.gz", image);
-        EXPECT_EQ(read_nifti(folder / "a.nii.gz").samples, image.samples);
-    };
-    check(test::pattern_image<std::uint8_t>(grid));
-    check(test::pattern_image<std::int16_t>(grid));
-    check(test::pattern_image<std::uint16_t>(grid));
-    check(test::pattern_image<float>(grid));
-    Image large = test::pattern_image<std::int32_t>(grid);
-    std::get<std::vector<std::int32_t>>(large.samples)[3] = std::numeric_limits<std::int32_t>::min();
-    check(large);
-}
-
-TEST(Nifti, NibabelReadsWhatIsWritten) {
-    const test::TemporaryFolder folder;
-    int number = 0;
-    const auto write = [&](const Image& image) {
-        const fs::path path = folder / (std::to_string(number) + (number % 2 ? ".nii" : ".nii.gz"));
-        write_nifti(path, image);
-        // The tolerance is that of the stored single-precision numbers; read_nifti sees the same ones.
-        Image stored = image;
-        stored.grid = read_nifti_grid(path);
-        test::write_expectation(path, stored, 1e-6);
-        EXPECT_LT(corner_distance_mm(stored.grid, image.grid), kFloatErrorMm);
-        ++number;
-    };
-    for (const Grid& grid : test::all_orientations()) write(test::pattern_image<std::int16_t>(grid));
-    const Grid grid = test::all_orientations().back();
-    write(test::pattern_image<std::uint8_t>(grid));
-    write(test::pattern_image<std::uint16_t>(grid));
-    write(test::pattern_image<std::int32_t>(grid));
-    write(test::pattern_image<float>(grid));
-    Grid long_grid = grid;
-    long_grid.size = {40000, 1, 1};
-    write(test::pattern_image<std::uint8_t>(long_grid));
+    Grid grid = test::all_orientations().back();
+    grid.size = {40000, 1, 1};
+    Image image = test::pattern_image<std::uint8_t>(grid);
+    write_nifti(folder / "a.nii", image);
+    image.grid = read_nifti_grid(folder / "a.nii");
+    test::write_expectation(folder / "a.nii", image, 1e-6);
     test::run_image_oracle("check", folder.path());
-}
-
-TEST(Nifti, ReadsWhatNibabelWrites) {
-    const test::TemporaryFolder folder;
-    test::run_image_oracle("make-nifti", folder.path());
-    EXPECT_EQ(test::compare_with_expectations(folder.path(), [](const fs::path& path) { return read_nifti(path); }), 59);
 }
 
 TEST(Nifti, ReadsPairsByEitherName) {
@@ -160,15 +106,6 @@ TEST(Nifti, SameImageSameBytes) {
     write_nifti(folder / "b.nii.gz", image);
     EXPECT_EQ(test::content_of(folder / "a.nii.gz"), test::content_of(folder / "b.nii.gz"));
     EXPECT_EQ(test::content_of(folder / "a.nii.gz").substr(4, 4), std::string(4, '\0'));
-}
-
-TEST(Nifti, RejectsEveryTruncatedPrefix) {
-    const test::TemporaryFolder folder;
-    for (const char* suffix : {".nii", ".nii.gz"}) {
-        const fs::path whole = folder / (std::string("whole") + suffix), part = folder / (std::string("part") + suffix);
-        write_nifti(whole, test::pattern_image<std::int16_t>(test::all_orientations()[50]));
-        test::expect_prefixes_refused(whole, part, [](const fs::path& path) { read_nifti(path); });
-    }
 }
 
 TEST(Nifti, ReadsSeveralGzipMembers) {

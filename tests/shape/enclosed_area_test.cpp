@@ -6,19 +6,12 @@
 #include <cmath>
 
 #include "kontur/shape/section.h"
+#include "support/polygons.h"
 
 namespace kontur {
 namespace {
 
-/// Two lobes of 10 mm, its signed area is 0.
-Polygon2 figure_of_eight() {
-    Polygon2 line;
-    for (int i = 0; i < 240; ++i) {
-        const double t = 2 * M_PI * (i + 0.5) / 240;
-        line.push_back({20 * std::sin(t), 10 * std::sin(2 * t)});
-    }
-    return line;
-}
+using test::figure_of_eight;
 
 TEST(EnclosedArea, CountsBothLobesOfALineThatCrossesItself) {
     const Polygon2 square = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};

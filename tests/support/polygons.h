@@ -37,6 +37,16 @@ inline double distance_to_segment(const Point2& a, const Point2& b, const Point2
     return std::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
 }
 
+/// Two lobes of 10 mm; its signed area is 0.
+inline std::vector<Point2> figure_of_eight() {
+    std::vector<Point2> points;
+    for (int i = 0; i < 240; ++i) {
+        const double t = 2 * std::numbers::pi * (i + 0.5) / 240;
+        points.push_back({20 * std::sin(t), 10 * std::sin(2 * t)});
+    }
+    return points;
+}
+
 /// A simple polygon: random radii at increasing angles, counter-clockwise.
 inline std::vector<Point2> random_star(int count, std::mt19937& random) {
     std::uniform_real_distribution<double> radius(4, 20);

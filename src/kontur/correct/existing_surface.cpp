@@ -10,6 +10,7 @@
 #include "kontur/base/distance_transform.h"
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
+#include "kontur/shape/inside_box.h"
 
 namespace kontur {
 namespace {
@@ -19,21 +20,8 @@ constexpr int kTaps = 3;                  ///< on each side
 constexpr double kLeastVoxels = 0.05;     ///< f0 at a voxel's centre is no nearer to 0, in the smallest voxel side
 constexpr std::int64_t kMargin = 3;       ///< voxels around the object at least
 
-/// Of the voxels inside; nullopt for a mask without one.
 std::optional<IndexBox> inside_box(const Mask& mask) {
-    const Index3 size = mask.grid.size;
-    std::optional<IndexBox> box;
-    for (std::int64_t k = 0; k < size.k; ++k)
-        for (std::int64_t j = 0; j < size.j; ++j) {
-            const auto* row = mask.values.data() + mask.grid.offset(0, j, k);
-            const auto* begin = std::find_if(row, row + size.i, [](std::uint8_t v) { return v != 0; });
-            if (begin == row + size.i) continue;
-            const auto* end = row + size.i;
-            while (*(end - 1) == 0) --end;
-            const IndexBox run{{begin - row, j, k}, {end - 1 - row, j, k}};
-            box = box ? box_around(*box, run) : run;
-        }
-    return box;
+    return inside_box(mask.grid.size, std::span(mask.values), [](std::uint8_t v) { return v != 0; });
 }
 
 /// The box grown by `margin`; beyond the grid by kMargin voxels at most.
@@ -64,7 +52,7 @@ std::vector<std::uint8_t> inside_of(const Mask& mask, const IndexBox& box) {
 /// half a voxel before the nearest marked centre.
 std::vector<float> distances_from(const std::vector<std::uint8_t>& marked, const Grid& grid, const Work& work) {
     const Vec3 spacing = grid.spacing_mm();
-    const NearestMarked nearest = nearest_marked(grid.size, spacing, marked, work);
+    const DistanceTransform nearest = distance_transform(grid.size, spacing, marked, work);
     std::vector<float> distances(marked.size());
     parallel_for(static_cast<std::int64_t>(marked.size()), 1 << 16, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
@@ -128,7 +116,6 @@ double radius_of(const std::vector<std::uint8_t>& inside, const Grid& grid) {
         }
     return farthest;
 }
-
 
 double length_mm(double inscribed_radius_mm, const Grid& grid) {
     return std::max(kLengthOfRadius * inscribed_radius_mm, kLeastLengthVoxels * largest(grid.spacing_mm()));

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kontur/base/parallel.h"
+#include "kontur/shape/inside_box.h"
 
 namespace kontur {
 namespace {
@@ -37,20 +38,10 @@ Levels combined(const Levels& a, const Levels& b, const IndexBox& box, const Wor
 }
 
 std::optional<IndexBox> inside_box(const Levels& levels) {
-    const Index3 size = levels.box.size();
-    std::optional<IndexBox> found;
-    for (std::int64_t k = 0; k < size.k; ++k)
-        for (std::int64_t j = 0; j < size.j; ++j) {
-            const float* row = levels.values.data() + size.i * (j + size.j * k);
-            const float* first = std::find_if(row, row + size.i, [](float v) { return v > 0; });
-            if (first == row + size.i) continue;
-            const float* last = row + size.i - 1;
-            while (!(*last > 0)) --last;
-            const Index3 low{levels.box.low.i + (first - row), levels.box.low.j + j, levels.box.low.k + k};
-            const IndexBox run{low, {levels.box.low.i + (last - row), low.j, low.k}};
-            found = found ? box_around(*found, run) : run;
-        }
-    return found;
+    std::optional<IndexBox> box = inside_box(levels.box.size(), std::span(levels.values), [](float v) { return v > 0; });
+    if (!box) return box;
+    for (int axis = 0; axis < 3; ++axis) box->low[axis] += levels.box.low[axis], box->high[axis] += levels.box.low[axis];
+    return box;
 }
 
 }  // namespace
@@ -65,8 +56,8 @@ WorkLattice work_lattice(const Grid& image) {
     const double next = std::max(spacing[(lattice.thick_axis + 1) % 3], spacing[(lattice.thick_axis + 2) % 3]);
     const double parts = std::floor(spacing[lattice.thick_axis] / (kLongestStep * next));
     lattice.parts = std::clamp(static_cast<std::int64_t>(parts), std::int64_t{1}, kMostParts);
-    lattice.grid.index_to_mm.set_column(
-        lattice.thick_axis, image.index_to_mm.column(lattice.thick_axis) / static_cast<double>(lattice.parts));
+    lattice.grid.index_to_mm.set_column(lattice.thick_axis,
+                                        image.index_to_mm.column(lattice.thick_axis) / static_cast<double>(lattice.parts));
     return lattice;
 }
 
@@ -84,7 +75,8 @@ Levels trimmed(Levels levels) {
     const std::optional<IndexBox> inside = inside_box(levels);
     if (!inside) return {};
     const IndexBox box = *common_box(grown(*inside, {1, 1, 1}), levels.box);
-    return box.low == levels.box.low && box.high == levels.box.high ? std::move(levels) : on_box(levels, box, {.threads = 1});
+    return box.low == levels.box.low && box.high == levels.box.high ? std::move(levels)
+                                                                    : on_box(levels, box, {.threads = 1});
 }
 
 Levels on_box(const Levels& levels, const IndexBox& box, const Work& work) {

@@ -11,6 +11,7 @@
 
 #include "kontur/base/parallel.h"
 #include "kontur/derive/crossings_distance.h"
+#include "kontur/shape/inside_box.h"
 
 namespace kontur {
 namespace {
@@ -18,19 +19,7 @@ namespace {
 constexpr std::int64_t kAround = 2;  ///< voxels outside of the object in its box
 
 std::optional<IndexBox> inside_box(const Mask& mask) {
-    const Index3 size = mask.grid.size;
-    std::optional<IndexBox> box;
-    for (std::int64_t k = 0; k < size.k; ++k)
-        for (std::int64_t j = 0; j < size.j; ++j) {
-            const auto* row = mask.values.data() + mask.grid.offset(0, j, k);
-            const auto* end = row + size.i;
-            const auto* begin = std::find_if(row, end, [](std::uint8_t v) { return v != 0; });
-            if (begin == end) continue;
-            while (*(end - 1) == 0) --end;
-            const IndexBox run{{begin - row, j, k}, {end - 1 - row, j, k}};
-            box = box ? box_around(*box, run) : run;
-        }
-    return box;
+    return inside_box(mask.grid.size, std::span(mask.values), [](std::uint8_t v) { return v != 0; });
 }
 
 /// 0 and 1 of a box that may reach beyond the grid.

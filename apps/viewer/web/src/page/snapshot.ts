@@ -40,7 +40,7 @@ export async function snapshot({ stage, redraw3D, cube, project, session }: Snap
   if (solid) paintCube(context, solid.axes, solid.box, area);
   const bar = stage.querySelector<HTMLElement>(".surface-scale:not([hidden])");
   if (bar) paintScale(context, bar, area);
-  paintWords(context, [0, area.height], area.width, lines, structures, project);
+  paintWords(context, { top: area.height, width: area.width }, lines, structures, project);
   return await new Promise((resolve, reject) =>
     canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("The browser has no memory for a picture of this size.")))),
   );
@@ -91,22 +91,21 @@ const titleOf = (pane: HTMLElement): string =>
 
 function paintWords(
   context: CanvasRenderingContext2D,
-  [left, top]: [number, number],
-  width: number,
+  { top, width }: { top: number; width: number },
   lines: readonly string[],
   structures: readonly Structure[],
   project: Project,
 ): void {
   let y = top + LINE;
   for (const line of lines) {
-    word(context, line, [left + 10, y], "#ffffff", width - 20);
+    word(context, line, [10, y], "#ffffff", width - 20);
     y += LINE;
   }
   for (const { id, name, color } of structures) {
     context.fillStyle = color;
-    context.fillRect(left + 10, y - 11, 12, 12);
+    context.fillRect(10, y - 11, 12, 12);
     const volume = project.surfaces.get(id)?.volume_ml;
-    word(context, volume === undefined ? name : `${name}  ·  ${volumeText(volume)}`, [left + 30, y], "#ffffff", width - 40);
+    word(context, volume === undefined ? name : `${name}  ·  ${volumeText(volume)}`, [30, y], "#ffffff", width - 40);
     y += LINE;
   }
 }

@@ -48,7 +48,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     const drafts = new Drafts(project, services);
     this.edits = new ContourEdits(navigation, project, this.drawing, drafts, services);
     this.outlines = new OutlineEdits(navigation, project, this.drawing, drafts, services);
-    this.pushing = new Pushing(project, this.drawing, this.edits, this.outlines, drafts, services);
+    this.pushing = new Pushing(project, this.drawing, { edits: this.edits, outlines: this.outlines, drafts }, services);
     this.points = new SinglePoints(project, this.edits, services);
     this.proposals = new Proposals(navigation, project, this.drawing, services);
     this.planeLines = new PlaneLines(navigation, project, services.screenOf);

@@ -30,6 +30,13 @@ interface Target {
   make(line: readonly BrushPoint[]): void;
 }
 
+/** What the brush changes: drawn contours, computed outlines, and what is seen of both while the hand moves. */
+interface Changes {
+  readonly edits: ContourEdits;
+  readonly outlines: OutlineEdits;
+  readonly drafts: Drafts;
+}
+
 /** A round brush that pushes the active structure's nearest line on the slice: a contour, or the computed outline, which becomes one. */
 export class Pushing {
   radius = 24; // pixels
@@ -39,9 +46,7 @@ export class Pushing {
   constructor(
     private readonly project: Project,
     private readonly drawing: Drawing,
-    private readonly edits: ContourEdits,
-    private readonly outlines: OutlineEdits,
-    private readonly drafts: Drafts,
+    private readonly changes: Changes,
     private readonly services: EditorServices,
   ) {}
 
@@ -75,13 +80,13 @@ export class Pushing {
       },
       end: (at) => {
         brush(at);
-        this.drafts.drop();
+        this.changes.drafts.drop();
         this.drawing.showHand([]);
         if (line !== before) target.make(line);
       },
       cancel: () => {
         this.drawing.showHand([]);
-        this.drafts.giveUp();
+        this.changes.drafts.giveUp();
       },
     };
   }
@@ -94,7 +99,7 @@ export class Pushing {
   private nearest(view: ViewName, screen: Screen, step_mm: number, pointer: Point2): Target | null {
     const active = this.project.activeStructure?.id;
     const drawn = this.project.shownContours().filter((contour) => contour.structure === active && inView(contour, screen, step_mm));
-    const computed = this.outlines.free(view, screen).filter(({ structure }) => structure === active);
+    const computed = this.changes.outlines.free(view, screen).filter(({ structure }) => structure === active);
     const targets = [...drawn.map((contour) => this.ofContour(screen, contour)), ...computed.map((outline) => this.ofOutline(screen, outline))];
     const away = targets.map(
       ({ points, isClosed }) =>
@@ -113,10 +118,10 @@ export class Pushing {
     return {
       points: contour.points,
       isClosed: contour.closed,
-      draft: (line) => this.drafts.send(edit(line)),
+      draft: (line) => this.changes.drafts.send(edit(line)),
       make: (line) => {
         const { name, args } = edit(line);
-        this.edits.make(name, args);
+        this.changes.edits.make(name, args);
         this.project.select({ contour: contour.id, point: null });
       },
     };
@@ -133,7 +138,7 @@ export class Pushing {
   }
 
   private ofOutline(screen: Screen, outline: FreeOutline): Target {
-    const contour = (line: readonly BrushPoint[]) => this.outlines.contour(screen, outline, this.world(screen, outline, line), "pushed");
-    return { points: outline.points, isClosed: true, draft: (line) => this.outlines.draft(contour(line)), make: (line) => this.outlines.add(contour(line)) };
+    const contour = (line: readonly BrushPoint[]) => this.changes.outlines.contour(screen, outline, this.world(screen, outline, line), "pushed");
+    return { points: outline.points, isClosed: true, draft: (line) => this.changes.outlines.draft(contour(line)), make: (line) => this.changes.outlines.add(contour(line)) };
   }
 }

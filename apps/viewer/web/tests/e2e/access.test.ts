@@ -5,7 +5,8 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { describe, test } from "node:test";
 import { BROWSER, EMULATES_MEDIA, launch } from "./browsers";
-import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
+import { drawCrossingCircles } from "./crossing_circles";
+import { BallVisits, Viewer } from "./support";
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const visits = new BallVisits();
@@ -41,16 +42,7 @@ const open = () => (opened ??= prepare());
 async function prepare(): Promise<void> {
   viewer = await visits.next();
   await viewer.page.setViewportSize({ width: 1440, height: 900 }); // the whole toolbar fits, by Firefox's letters, too
-  await viewer.page.keyboard.press("f");
-  for (const [i, [view, mm]] of (
-    [
-      ["axial", BALL_RADIUS_MM],
-      ["coronal", BALL_RADIUS_MM - 7],
-    ] as const
-  ).entries()) {
-    await viewer.drag(view, circle(await viewer.pixels(view, mm), 48));
-    await viewer.waitForContours(i + 1);
-  }
+  await drawCrossingCircles(viewer);
   await viewer.page.locator(".contour-row").first().click();
   await viewer.surfaceShown();
 }

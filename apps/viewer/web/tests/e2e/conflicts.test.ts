@@ -2,24 +2,15 @@
 // Contours that contradict each other are named, and one of them is bent to the other by a click.
 import assert from "node:assert/strict";
 import { beforeEach, describe, test } from "node:test";
-import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
+import { drawCrossingCircles } from "./crossing_circles";
+import { BallVisits, type Viewer } from "./support";
 
 const visits = new BallVisits();
 let viewer: Viewer;
 
-/** A large circle on the axial slice, a smaller one across: they contradict each other at two places. */
 beforeEach(async () => {
   viewer = await visits.next();
-  await viewer.page.keyboard.press("f");
-  for (const [i, [view, mm]] of (
-    [
-      ["axial", BALL_RADIUS_MM],
-      ["coronal", BALL_RADIUS_MM - 7],
-    ] as const
-  ).entries()) {
-    await viewer.drag(view, circle(await viewer.pixels(view, mm), 48));
-    await viewer.waitForContours(i + 1);
-  }
+  await drawCrossingCircles(viewer);
   await viewer.surfaceShown();
 });
 

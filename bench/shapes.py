@@ -17,6 +17,7 @@ import argparse
 import csv
 import functools
 import hashlib
+import statistics
 import sys
 import time
 
@@ -216,16 +217,20 @@ def written(rows, fields):
 
 
 def cell(row):
-    """Dice, the worst section in percent, the volume of the truth's, and whether the check spoke."""
+    """Dice, the worst section in percent, and whether the check spoke."""
     said = " said" if int(row["sentences"]) else ""
     return f"{float(row['dice']):.3f}, {100 * float(row['wrong']):.0f} %{said}"
 
 
-def interval(row):
-    if not row["low_ml"]:
-        return "-"
-    truth = float(row["truth_ml"])
-    return f"{float(row['volume_ml']) / truth:.2f} ({float(row['low_ml']) / truth:.2f} to {float(row['high_ml']) / truth:.2f})"
+def volumes(rows):
+    """By planes: the error of the volume in the median and at most, and how often the interval holds the truth."""
+    lines = []
+    for way in PLANES:
+        some = [row for row in rows if row["planes"] == way]
+        errors = [abs(float(row["volume_ml"]) / float(row["truth_ml"]) - 1) for row in some]
+        held = sum(bool(row["low_ml"]) and float(row["low_ml"]) <= float(row["truth_ml"]) <= float(row["high_ml"]) for row in some)
+        lines.append([way, f"{100 * statistics.median(errors):.1f} %", f"{100 * max(errors):.0f} %", f"{held} of {len(some)}"])
+    return table(["planes", "median error", "largest", "in its interval"], lines)
 
 
 def by_kind(rows, of_row):
@@ -234,7 +239,7 @@ def by_kind(rows, of_row):
                                            for kind in solids.KINDS for size in SIZES_MM])
 
 
-TABLES = {"kinds": lambda rows: by_kind(rows, cell), "kinds_volume": lambda rows: by_kind(rows, interval)}
+TABLES = {"kinds": lambda rows: by_kind(rows, cell), "kinds_volume": volumes}
 
 
 def main():

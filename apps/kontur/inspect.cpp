@@ -10,7 +10,7 @@
 #include "kontur/base/error.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/rtstruct.h"
-#include "kontur/io/images/frame_needed.h"
+#include "kontur/io/images/frame_choice_error.h"
 #include "kontur/io/meshes/mesh.h"
 #include "kontur/io/read_provenance.h"
 #include "kontur/measure/contour_check.h"
@@ -47,7 +47,7 @@ Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) 
 Facts describe_frame(const fs::path& path, ReadImageOptions options, const Work& work) {
     try {
         return describe(read_image(path, options, work));
-    } catch (const FrameNeeded& needed) {
+    } catch (const FrameChoiceError& needed) {
         options.frame = 1;
         Facts facts = describe(read_image(path, options, work));
         facts["frames"] = needed.frames();

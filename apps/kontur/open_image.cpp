@@ -10,7 +10,7 @@
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/dicom_suv.h"
 #include "kontur/io/image.h"
-#include "kontur/io/images/frame_needed.h"
+#include "kontur/io/images/frame_choice_error.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/phantom/volumes.h"
 #include "open_words.h"
@@ -97,7 +97,7 @@ int count_times(const ImageInput& input, const viewer::OpenedImage& opened) {
     options.max_voxels = 1;  // no voxel is read: either a frame is missing, or there are too many voxels
     try {
         read_image(input.path, options);
-    } catch (const FrameNeeded& error) {
+    } catch (const FrameChoiceError& error) {
         return static_cast<int>(error.frames());
     } catch (const Error&) {
     }

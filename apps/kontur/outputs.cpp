@@ -156,13 +156,13 @@ fs::path Outputs::staging_folder(const fs::path& folder) {
 }
 
 void Outputs::commit() {
-    std::vector<Replaced> before;
+    std::vector<PreviousFile> before;
     for (const auto& [target, temporary] : files_) {
         std::error_code error;
         const bool is_new = !fs::exists(target, error);
         if (!is_new) {
             fs::permissions(temporary, fs::status(target).permissions(), error);
-            const Replaced old{target, temporary.parent_path() / fmt::format("{}{}", kKeptStem, before.size())};
+            const PreviousFile old{target, temporary.parent_path() / fmt::format("{}{}", kKeptStem, before.size())};
             keep(old.target, old.kept, error);
             if (!error) before.push_back(old);
         }
@@ -176,7 +176,7 @@ void Outputs::commit() {
     created_folder_.clear();
 }
 
-void Outputs::take_back(std::vector<Replaced>& before) {
+void Outputs::take_back(std::vector<PreviousFile>& before) {
     for (; !before.empty(); before.pop_back()) {
         const auto& [target, kept] = before.back();
         std::error_code error;

@@ -44,11 +44,11 @@ public:
 
 private:
     /// What stood at a target before the commit.
-    struct Replaced {
+    struct PreviousFile {
         std::filesystem::path target, kept;  ///< kept: "" for nothing
     };
 
-    void take_back(std::vector<Replaced>& before);
+    void take_back(std::vector<PreviousFile>& before);
     std::filesystem::path staging_folder(const std::filesystem::path& folder);
 
     std::map<std::filesystem::path, std::filesystem::path> folders_;  ///< target folder to hidden folder

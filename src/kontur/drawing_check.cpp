@@ -168,11 +168,11 @@ SectionCheck check_sections(const Drawing& drawing, const ImplicitFunction& func
                 out[p] = thin.contain(places[p]) ? kUnknown : voxels.at(places[p]).value_or(kUnknown);
             }
         });
-        std::vector<Vec3> left;
+        std::vector<Vec3> rest;
         for (std::size_t p = 0; p < places.size(); ++p)
-            if (std::isnan(out[p])) left.push_back(places[p]);
-        std::vector<double> found(left.size());
-        if (!left.empty()) fast.values(left, found, work);
+            if (std::isnan(out[p])) rest.push_back(places[p]);
+        std::vector<double> found(rest.size());
+        if (!rest.empty()) fast.values(rest, found, work);
         std::size_t next = 0;
         for (double& value : out)
             if (std::isnan(value)) value = found[next++];

@@ -68,8 +68,8 @@ double narrowest_mm(const Drawing& drawing) {
 }
 
 /// Lets the fit pass the places at which the image showed the surface before; returns how many there are.
-std::size_t follow_memory(PreparedContours& prepared, const ImageMemory& memory, const ContourSet& edited, double noise_mm) {
-    const std::vector<Vec3> places = memory.places_in(edited);
+std::size_t follow_memory(PreparedContours& prepared, const ImageMemory& memory, const ContourSet& set, double noise_mm) {
+    const std::vector<Vec3> places = memory.places_in(set);
     for (const Vec3& place : places)
         prepared.bounds.push_back({.position = place, .least_mm = 0, .most_mm = 0, .noise_mm = noise_mm});
     return places.size();
@@ -92,8 +92,7 @@ EditedSurface surface_of(const FittedFunction& fit, std::span<const Vec3> starts
     if (!found) return surface;
     surface.mesh = std::move(found->mesh);
     if (drawing)
-        surface.section_check =
-            check_sections(*drawing, surface.function, found->lattice, fill(found->lattice, work), work);
+        surface.section_check = check_sections(*drawing, surface.function, found->lattice, fill(found->lattice, work), work);
     return surface;
 }
 
@@ -144,13 +143,14 @@ public:
         const double near_mm = kEditedBy * prepared.ball.diameter();
         std::vector<const FittedLine*> earlier;
         for (std::size_t c = 0; c < contours.contours.size(); ++c) earlier.push_back(line_of(contours, c));
-        std::vector<std::size_t> used(earlier.size(), 0);
+        std::vector<std::size_t> use_counts(earlier.size(), 0);
         Tilts tilts{std::vector<double>(prepared.points.size(), 1.0), false, lines_.size() == earlier.size()};
         for (std::size_t i = 0; i < prepared.points.size(); ++i) {
             if (prepared.points[i].contour == kNoContour) continue;
             const auto c = static_cast<std::size_t>(prepared.points[i].contour);
             const std::optional<double> slope =
-                earlier[c] ? earlier[c]->line.slope_near(prepared.points[i].position, used[c]++, near_mm) : std::nullopt;
+                earlier[c] ? earlier[c]->line.slope_near(prepared.points[i].position, use_counts[c]++, near_mm)
+                           : std::nullopt;
             tilts.slopes[i] = slope.value_or(1.0);
             tilts.any = tilts.any || slope;
             tilts.all = tilts.all && slope;
@@ -231,20 +231,21 @@ Editor::~Editor() = default;
 Editor::Editor(Editor&&) noexcept = default;
 Editor& Editor::operator=(Editor&&) noexcept = default;
 
-EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
+EditedSurface Editor::preview(const ContourSet& contours, const Work& work,
                               const std::function<void(const SurfaceBand&)>& ahead) {
-    if (drawn.contours.empty()) return {};
+    if (contours.contours.empty()) return {};
     const EditorOptions& options = state_->options;
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
-    const Drawing drawing = read_drawing(thinned(drawn, kPreviewLines * options.preview_points), options.segment.fill_rule);
+    const Drawing drawing =
+        read_drawing(thinned(contours, kPreviewLines * options.preview_points), options.segment.fill_rule);
     StageOptions stages = stage_options(options.segment, drawing.diameter_mm());
     stages.prepare.image = state_->image;
     PreparedContours prepared = prepare(drawing, stages.prepare, work);
     const double spacing_mm = preview_spacing(options, drawing);
     std::size_t earlier_places = 0;
     if (state_->image_memory)
-        earlier_places = follow_memory(prepared, *state_->image_memory, drawn, kShownNoise * spacing_mm);
+        earlier_places = follow_memory(prepared, *state_->image_memory, contours, kShownNoise * spacing_mm);
     watch.lap("prepare");
     stages.fit.most_points = options.preview_points;
     stages.fit.tilt_points = options.preview_points;
@@ -274,19 +275,19 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     return surface;
 }
 
-EditedSurface Editor::finish(const ContourSet& drawn, const Work& work) const {
-    return Editor(state_->options).finish(drawn, nullptr, work);
+EditedSurface Editor::finish(const ContourSet& contours, const Work& work) const {
+    return Editor(state_->options).finish(contours, nullptr, work);
 }
 
-EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const Work& work,
+EditedSurface Editor::finish(const ContourSet& contours, const Image* image, const Work& work,
                              const std::function<void(const EditedSurface&)>& alone) {
-    if (drawn.contours.empty()) {
+    if (contours.contours.empty()) {
         EditedSurface nothing;
         nothing.finished = true;
         return nothing;
     }
     const EditorOptions& options = state_->options;
-    const Drawing drawing = read_drawing(drawn, options.segment.fill_rule);
+    const Drawing drawing = read_drawing(contours, options.segment.fill_rule);
     state_->image = image ? std::optional(image->grid) : std::nullopt;
     StageOptions stages = stage_options(options.segment, drawing.diameter_mm());
     stages.prepare.image = state_->image;
@@ -307,7 +308,7 @@ EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const 
     if (!asks) forget_image();
     if (alone && state_->image_memory) {
         PreparedContours followed = prepared;
-        const std::size_t places = follow_memory(followed, *state_->image_memory, drawn, kShownNoise * spacing_mm);
+        const std::size_t places = follow_memory(followed, *state_->image_memory, contours, kShownNoise * spacing_mm);
         FitOptions once = stages.fit;
         once.most_solves = 1;
         once.most_points = kFollowedPoints;
@@ -325,13 +326,13 @@ EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const 
     ImageFit with_image = follow_image({drawing, prepared, by_contours}, *image, stages, work, &state_->part_fits);
     if (with_image.report.verdict == ImageVerdict::used) surface = finished_surface(with_image.fitted);
     surface.image = std::move(with_image.report);
-    follow_image_of(drawn, surface.image);
+    follow_image_of(contours, surface.image);
     return surface;
 }
 
-void Editor::follow_image_of(const ContourSet& drawn, const ImageReport& report) {
+void Editor::follow_image_of(const ContourSet& contours, const ImageReport& report) {
     forget_image();
-    if (!report.shares.empty()) state_->image_memory.emplace(drawn, report.shares);
+    if (!report.shares.empty()) state_->image_memory.emplace(contours, report.shares);
 }
 
 void Editor::forget_image() { state_->image_memory.reset(); }

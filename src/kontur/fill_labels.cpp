@@ -36,7 +36,7 @@ double beyond(FillEnds ends) {
 double variance_left(const ImageReport& image) { return image.share_left() * image.share_left(); }
 
 /// What one fit leaves.
-struct Fitted {
+struct ObjectFit {
     const PaintedObject* object = nullptr;
     IndexBox range;
     ImplicitFunction function;
@@ -60,7 +60,7 @@ public:
             if (other != 0) contested[other].push_back(n);
             else map_.set_label(n, object.label);
         });
-        fitted_.emplace(object.label, Fitted{&object, range, result.function});
+        fitted_.emplace(object.label, ObjectFit{&object, range, result.function});
         for (const auto& [other, voxels] : contested) contest(object.label, other, voxels);
         return result.report.image;
     }
@@ -209,7 +209,7 @@ private:
     const Image* image_;
     FillOptions options_;
     const Work& work_;
-    std::map<std::int64_t, Fitted> fitted_;
+    std::map<std::int64_t, ObjectFit> fitted_;
     std::int64_t contested_ = 0, closed_ = 0;
 };
 
@@ -286,13 +286,13 @@ Filling fill_labels(Image labels, const Image* image, const FillOptions& options
 
     Filler filler(std::move(labels), image, options, work);
     for (const PaintedObject& object : objects) {
-        FilledLabel& filled = report.labels.emplace_back();
-        filled.label = object.label, filled.painted_voxels = object.found.voxels;
-        for (const PaintedSlice& slice : object.slices) ++filled.slices[static_cast<std::size_t>(slice.axis)];
+        FilledLabel& label_report = report.labels.emplace_back();
+        label_report.label = object.label, label_report.painted_voxels = object.found.voxels;
+        for (const PaintedSlice& slice : object.slices) ++label_report.slices[static_cast<std::size_t>(slice.axis)];
         const IndexBox range = range_to_fill(object, filler.grid(), beyond(options.ends));
         if (is_anything_left_out(object, range))
-            or_warn(object.label, filled.warnings, [&] { filled.image = filler.add(object, range); });
-        else filled.warnings.push_back(why_as_it_was(object));
+            or_warn(object.label, label_report.warnings, [&] { label_report.image = filler.add(object, range); });
+        else label_report.warnings.push_back(why_as_it_was(object));
     }
     watch.lap("fill");
     for (const auto& set : touching) filler.close_gaps(set);
@@ -302,7 +302,8 @@ Filling fill_labels(Image labels, const Image* image, const FillOptions& options
     report.closed_voxels = filler.closed();
     Image full = filler.take();
     const std::map<std::int64_t, LabelBox> after = label_boxes(full);
-    for (FilledLabel& filled : report.labels) filled.added_voxels = after.at(filled.label).voxels - filled.painted_voxels;
+    for (FilledLabel& label_report : report.labels)
+        label_report.added_voxels = after.at(label_report.label).voxels - label_report.painted_voxels;
     return {std::move(full), std::move(report)};
 }
 

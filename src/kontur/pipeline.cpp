@@ -82,14 +82,14 @@ ContourSet thinned(ContourSet set, std::size_t most) {
         begin_alike(contour, ball);  // a circle is so regular that nothing else tells its points apart
         const auto apart_mm = static_cast<double>(step) * line_length(contour.points, contour.closed) /
                               static_cast<double>(contour.points.size()) / kSpreadApart;
-        const std::vector<bool> taken =
+        const std::vector<bool> is_chosen =
             spread_along({contour.points, contour.closed}, std::vector(contour.points.size(), apart_mm), 0);
-        std::vector<Vec3> kept;
+        std::vector<Vec3> chosen_points;
         for (std::size_t i = 0; i < contour.points.size(); ++i) {
             const bool is_end = !contour.closed && (i == 0 || i + 1 == contour.points.size());
-            if (taken[i] || is_end) kept.push_back(contour.points[i]);
+            if (is_chosen[i] || is_end) chosen_points.push_back(contour.points[i]);
         }
-        contour.points = std::move(kept);
+        contour.points = std::move(chosen_points);
     }
     return set;
 }
@@ -156,8 +156,8 @@ std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContour
     for (const Contour& contour : contours.contours)
         starts.insert(starts.end(), contour.points.begin(), contour.points.end());
     if (margin_mm > 0) {
-        const std::vector<Vec3> missed = surface_of_missed(contours, function, margin_mm);
-        starts.insert(starts.end(), missed.begin(), missed.end());
+        const std::vector<Vec3> missed_surface = surface_of_missed(contours, function, margin_mm);
+        starts.insert(starts.end(), missed_surface.begin(), missed_surface.end());
     }
     for (const Vec3& click : contours.exterior)
         if (const auto start = surface_near(click, function, margin_mm)) starts.push_back(*start);

@@ -64,7 +64,7 @@ TEST(DistanceTransform, KnowsSpacing) {
     const Vec3 spacing{0.7, 1.3, 3};
     std::vector<std::uint8_t> marked(static_cast<std::size_t>(size.i * size.j * size.k));
     for (const std::size_t n : {3U, 77U, 200U, 301U}) marked[n] = 1;
-    const NearestMarked found = nearest_marked(size, spacing, marked);
+    const DistanceTransform found = distance_transform(size, spacing, marked);
     const auto place = [&](std::size_t n) {
         const auto at = static_cast<std::int64_t>(n);
         return Vec3{static_cast<double>(at % size.i) * spacing.x, static_cast<double>(at / size.i % size.j) * spacing.y,

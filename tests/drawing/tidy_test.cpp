@@ -76,7 +76,7 @@ TEST(Tidy, ThinsHugeContoursWithinTheDistanceThatItStates) {
         for (Vec3& p : huge.points) p += noise * (jitter(random) * kTilted.u + jitter(random) * kTilted.v);
         ContourSet set;
         set.contours = {huge, test::circle(kTilted, 10, 900)};
-        const Tidied done = tidy(set, {.spike_tolerance_mm = 0});
+        const TidyReport done = tidy(set, {.spike_tolerance_mm = 0});
         const std::vector<Vec3>& kept = set.contours[0].points;
         EXPECT_LE(kept.size(), 1000u);
         EXPECT_EQ(set.contours[1].points.size(), 900u) << "few enough";

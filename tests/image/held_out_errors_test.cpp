@@ -79,11 +79,11 @@ TEST(HeldOutErrors, BelowAQuarterOfAVoxelThereIsNothingToSeeNorOfACellForAWalk) 
                     {Vec3{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, error_mm, 0, error_mm, plane});
         return errors_of(points);
     };
-    EXPECT_EQ(errors(0.2).seen(), 0);
-    EXPECT_NEAR(errors(0.375).seen(), 0.5, 1e-9);
-    EXPECT_EQ(errors(0.6).seen(), 1);
-    EXPECT_EQ(errors(0.6).seen(kCellMm), 0) << "the voxels know more than cells that are four of them wide";
-    EXPECT_NEAR(errors(1.5).seen(kCellMm), 0.5, 1e-9);
+    EXPECT_EQ(errors(0.2).visibility(), 0);
+    EXPECT_NEAR(errors(0.375).visibility(), 0.5, 1e-9);
+    EXPECT_EQ(errors(0.6).visibility(), 1);
+    EXPECT_EQ(errors(0.6).visibility(kCellMm), 0) << "the voxels know more than cells that are four of them wide";
+    EXPECT_NEAR(errors(1.5).visibility(kCellMm), 0.5, 1e-9);
 }
 
 /// The points nearest to a place count as much as all: in the mean over places that comes out right.

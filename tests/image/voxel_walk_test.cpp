@@ -21,14 +21,14 @@ double prior(double distance_mm) { return 0.25 * distance_mm; }
 struct WalkAboutBall {
     WalkAboutBall(const Image& image, const ContourSet& contours, const CellSlab& near = {})
         : cells(image_cells(image, contours, kMany)) {
-        const DrawnOnImage drawn(Drawing(contours), image);
+        const Surroundings surroundings(Drawing(contours), image);
         const std::vector<Vec3> along = along_contours(contours, 1);
         for (std::size_t n = 0; n < cells.looks.size(); ++n) {
             const Vec3 p = cells.center(n);
             depths.depth_mm.push_back(static_cast<float>(25 - norm(p)));
             depths.far_mm.push_back(static_cast<float>(nearest_distance(p, along)));
         }
-        walk = walk_voxels(cells, depths, {drawn.walls, prior, 50, near});
+        walk = walk_voxels(cells, depths, {surroundings.walls, prior, 50, near});
     }
 
     /// Of the cells at which `is_there` holds, the share inside.

@@ -86,15 +86,15 @@ TEST(CountWrong, IsTheAreaBetweenOutlines) {
     }
     const WrongCells wrong = count_wrong(plane, cells, alone, moved, walk);
     // The plane lies between two layers of cells, or in one.
-    const double layers = wrong.drawn / (M_PI * (25 * 25 - 1));
+    const double layers = wrong.inside / (M_PI * (25 * 25 - 1));
     EXPECT_NEAR(layers, std::round(layers), 0.02 * std::round(layers));
-    const double layer = wrong.drawn / std::round(layers);
+    const double layer = wrong.inside / std::round(layers);
     EXPECT_NEAR(wrong.by_contours / std::round(layers), layer - M_PI * 20 * 20, 0.03 * layer);
     EXPECT_NEAR(wrong.by_walk / std::round(layers), M_PI * 28 * 28 - layer, 0.03 * layer);
-    EXPECT_LT(wrong.by_movement, 0.03 * wrong.drawn);
+    EXPECT_LT(wrong.by_movement, 0.03 * wrong.inside);
     ContourSet open = plane;
     open.contours.front().closed = false;
-    EXPECT_EQ(count_wrong(open, cells, alone, moved, walk).drawn, 0);
+    EXPECT_EQ(count_wrong(open, cells, alone, moved, walk).inside, 0);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace kontur::viewer {
 namespace {
 
-using Sketched = std::vector<SketchPoint>;
+using Sketch = std::vector<SketchPoint>;
 
 std::vector<Vec3> reversed(std::vector<Vec3> path) {
     std::reverse(path.begin(), path.end());
@@ -23,7 +23,7 @@ DrawnContour with_part(const DrawnContour& line, std::size_t first, std::size_t 
                        SliceEdges& edges) {
     DrawnContour split = line;
     const std::size_t from = split_at(split, first), to = split_at(split, last);
-    Sketched sketch = sketch_of(split);
+    Sketch sketch = sketch_of(split);
     sketch[from].kind = Stretch::free;
     sketch[from].path = thinned(path);
     sketch.erase(sketch.begin() + static_cast<std::ptrdiff_t>(from) + 1, sketch.begin() + static_cast<std::ptrdiff_t>(to));
@@ -34,7 +34,7 @@ DrawnContour with_part(const DrawnContour& line, std::size_t first, std::size_t 
 DrawnContour led_on(const DrawnContour& line, std::size_t point, const std::vector<Vec3>& path, SliceEdges& edges) {
     DrawnContour split = line;
     const std::size_t from = split_at(split, point);
-    Sketched sketch = sketch_of(split);
+    Sketch sketch = sketch_of(split);
     sketch.resize(from + 1);
     sketch[from].kind = Stretch::free;
     sketch[from].path = thinned(path);
@@ -45,7 +45,7 @@ DrawnContour led_on(const DrawnContour& line, std::size_t point, const std::vect
 DrawnContour led_up(const DrawnContour& line, std::size_t point, const std::vector<Vec3>& path, SliceEdges& edges) {
     DrawnContour split = line;
     const std::size_t to = split_at(split, point);
-    Sketched sketch = sketch_of(split);
+    Sketch sketch = sketch_of(split);
     sketch.erase(sketch.begin(), sketch.begin() + static_cast<std::ptrdiff_t>(to));
     const std::vector<Vec3> part = thinned(path);
     sketch.insert(sketch.begin(),
@@ -58,7 +58,7 @@ DrawnContour led_around(const DrawnContour& line, const std::vector<Vec3>& path,
     DrawnContour ring = line;
     ring.closed = true;
     ring.inside.reset();
-    Sketched sketch = sketch_of(line);
+    Sketch sketch = sketch_of(line);
     sketch.back().kind = Stretch::free;
     sketch.back().path = thinned(path);
     return redrawn(ring, sketch, edges);

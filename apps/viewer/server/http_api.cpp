@@ -12,8 +12,8 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
-#include "kontur/io/images/frame_needed.h"
-#include "kontur/io/images/transform_needed.h"
+#include "kontur/io/images/frame_choice_error.h"
+#include "kontur/io/images/transform_choice_error.h"
 #include "viewer/model/message_checks.h"
 #include "viewer/model/model_json.h"
 #include "viewer/server/gzip.h"
@@ -74,9 +74,9 @@ HttpReply guarded(Make make) {
         return make();
     } catch (const json::exception&) {
         return error_reply(400, "invalid_input", "the request is no JSON that kontur understands");
-    } catch (const FrameNeeded& error) {
+    } catch (const FrameChoiceError& error) {
         return choice_reply(error, {{"frames", error.frames()}});
-    } catch (const TransformNeeded& error) {
+    } catch (const TransformChoiceError& error) {
         return choice_reply(error, {{"transforms", true}});
     } catch (const StructureRemoved&) {
         return nothing();

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "kontur/base/error.h"
-#include "kontur/io/images/frame_needed.h"
-#include "kontur/io/images/transform_needed.h"
+#include "kontur/io/images/frame_choice_error.h"
+#include "kontur/io/images/transform_choice_error.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/status_line.h"
 
@@ -184,10 +184,10 @@ void Workspace::read(const Open& open, const std::function<void(std::exception_p
         const Work work{.callback = [this](std::string_view stage, double fraction) { tell_progress(stage, fraction); },
                         .stop = stop};
         adopt(open(work));  // a stop that comes later finds a project that is there: it counts as opened
-    } catch (const FrameNeeded& error) {
+    } catch (const FrameChoiceError& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what(), {{"frames", error.frames()}});
-    } catch (const TransformNeeded& error) {
+    } catch (const TransformChoiceError& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what(), {{"transforms", true}});
     } catch (const ImageMoved& error) {

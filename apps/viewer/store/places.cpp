@@ -154,8 +154,8 @@ json file_json(const Place& file, const std::string& kind) {
 }
 
 /// As many entries as a page shows.
-struct Listed {
-    explicit Listed(std::size_t already) : left_out(already) {}
+struct Listing {
+    explicit Listing(std::size_t already) : left_out(already) {}
 
     void add(json& list, json entry) {
         if (list.size() < kMostListed) list.push_back(std::move(entry));
@@ -204,7 +204,7 @@ json Places::list(const std::string& path) const {
     if (!fs::is_directory(folder, ignored)) throw Error(ErrorKind::io, fmt::format("{} is no folder", path));
     const Reader reader(*this);
     const Content content = reader.read(folder);
-    Listed listed(content.left_out);
+    Listing listed(content.left_out);
     bool has_slices = false;
     for (const Place& one : content.folders) listed.add(listed.folders, entry_json(one));
     for (const Place& one : content.files) {

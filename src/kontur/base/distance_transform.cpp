@@ -22,8 +22,7 @@ public:
     void apply(float* squared, std::uint32_t* nearest, std::size_t count, std::size_t step, double spacing) {
         parabolas_.clear();
         for (std::size_t q = 0; q < count; ++q)
-            if (squared[q * step] != kFar)
-                add({static_cast<double>(q) * spacing, 0, squared[q * step], nearest[q * step]});
+            if (squared[q * step] != kFar) add({static_cast<double>(q) * spacing, 0, squared[q * step], nearest[q * step]});
         if (parabolas_.empty()) return;
         std::size_t at = 0;
         for (std::size_t n = 0; n < count; ++n) {
@@ -59,12 +58,12 @@ private:
 
 }  // namespace
 
-NearestMarked nearest_marked(const Index3& size, const Vec3& spacing, std::span<const std::uint8_t> marked,
-                             const Work& work) {
-    NearestMarked found{std::vector<float>(marked.size()), std::vector<std::uint32_t>(marked.size())};
+DistanceTransform distance_transform(const Index3& size, const Vec3& spacing, std::span<const std::uint8_t> marked,
+                                     const Work& work) {
+    DistanceTransform transform{std::vector<float>(marked.size()), std::vector<std::uint32_t>(marked.size())};
     for (std::size_t n = 0; n < marked.size(); ++n) {
-        found.distances[n] = marked[n] ? 0 : kFar;
-        found.nearest[n] = static_cast<std::uint32_t>(n);
+        transform.distances[n] = marked[n] ? 0 : kFar;
+        transform.nearest[n] = static_cast<std::uint32_t>(n);
     }
     const auto ni = static_cast<std::size_t>(size.i), nj = static_cast<std::size_t>(size.j),
                nk = static_cast<std::size_t>(size.k);
@@ -73,20 +72,20 @@ NearestMarked nearest_marked(const Index3& size, const Vec3& spacing, std::span<
         parallel_for(static_cast<std::int64_t>(lines), 64, work, [&](std::int64_t begin, std::int64_t end) {
             Envelope envelope(count);
             for (auto line = static_cast<std::size_t>(begin); line < static_cast<std::size_t>(end); ++line)
-                envelope.apply(&found.distances[first(line)], &found.nearest[first(line)], count, step, apart);
+                envelope.apply(&transform.distances[first(line)], &transform.nearest[first(line)], count, step, apart);
         });
     };
     along(nj * nk, ni, 1, spacing.x, [&](std::size_t line) { return line * ni; });
     along(ni * nk, nj, ni, spacing.y, [&](std::size_t line) { return line / ni * ni * nj + line % ni; });
     along(ni * nj, nk, ni * nj, spacing.z, [&](std::size_t line) { return line; });
-    for (float& distance : found.distances) distance = std::sqrt(distance);
-    return found;
+    for (float& distance : transform.distances) distance = std::sqrt(distance);
+    return transform;
 }
 
-NearestMarked nearest_marked(const Index3& size, std::span<const std::uint8_t> marked) {
+DistanceTransform distance_transform(const Index3& size, std::span<const std::uint8_t> marked) {
     Work alone;
     alone.threads = 1;
-    return nearest_marked(size, {1, 1, 1}, marked, alone);
+    return distance_transform(size, {1, 1, 1}, marked, alone);
 }
 
 }  // namespace kontur

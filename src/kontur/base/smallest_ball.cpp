@@ -63,14 +63,14 @@ struct SupportedBall {
 SupportedBall hold(const std::vector<Vec3>& support, const Vec3& outside) {
     SupportedBall best;
     for (unsigned subset = 0; subset < 1U << support.size(); ++subset) {
-        std::vector<Vec3> chosen{outside};
+        std::vector<Vec3> corners{outside};
         for (std::size_t i = 0; i < support.size(); ++i)
-            if (subset >> i & 1U) chosen.push_back(support[i]);
-        if (chosen.size() > 4) continue;
-        const std::optional<Ball3> ball = ball_through(chosen);
+            if (subset >> i & 1U) corners.push_back(support[i]);
+        if (corners.size() > 4) continue;
+        const std::optional<Ball3> ball = ball_through(corners);
         if (!ball || (!best.support.empty() && ball->radius >= best.ball.radius)) continue;
         if (std::all_of(support.begin(), support.end(), [&](const Vec3& p) { return contains(*ball, p); }))
-            best = {*ball, chosen};
+            best = {*ball, corners};
     }
     return best;
 }

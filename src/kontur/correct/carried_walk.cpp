@@ -18,24 +18,19 @@
 namespace kontur {
 namespace {
 
-constexpr double kDeviation = 0.7;         // of the correction carried farther: standard deviation of what is right ...
-constexpr double kDeviationLength = 0.7;   // ... which rises with the distance from moved places over so many lengths
-constexpr double kBand = 2.5;              // standard deviations: beyond, f0 + g is sure
-constexpr double kLeastAsked = 0.15;       // of the smallest voxel side: where less is carried nothing is asked
-constexpr double kLeastDeviation = 0.05;   // of the smallest voxel side
-constexpr double kLogistic = 1.7;          // the logistic function that is like the normal distribution's
+constexpr double kDeviation = 0.7;        // of the correction carried farther: standard deviation of what is right ...
+constexpr double kDeviationLength = 0.7;  // ... which rises with the distance from moved places over so many lengths
+constexpr double kBand = 2.5;             // standard deviations: beyond, f0 + g is sure
+constexpr double kLeastAsked = 0.15;      // of the smallest voxel side: where less is carried nothing is asked
+constexpr double kLeastDeviation = 0.05;  // of the smallest voxel side
 constexpr double kLooksWeight = 2;
-constexpr double kTie = 1;                 // of a voxel to what is known of it alone, beside its steps
-constexpr double kEdges = 100;             // how much a difference of looks hinders a step
-constexpr double kLeastStep = 1e-3;
+constexpr double kTie = 1;  // of a voxel to what is known of it alone, beside its steps
 constexpr double kTolerance = 1e-3;
-constexpr double kLooksReach = 0.24;       // of the object's radius: how far examples of looks reach
-constexpr double kExamples = 2000;         // about so many of looks ...
-constexpr double kExampleVoxels = 3;       // ... up to so many of the largest voxel side from the surface ...
-constexpr double kExampleMoves = 1.5;      // ... or so many mean moves ...
-constexpr double kExampleLengths = 4;      // ... and so many lengths from moved places
-constexpr double kRounding = 1e-6;         // a plane between two layers of voxels is in both, however they are rounded
-
+constexpr double kLooksReach = 0.24;   // of the object's radius: how far examples of looks reach
+constexpr double kExampleVoxels = 3;   // examples: up to so many of the largest voxel side from the surface ...
+constexpr double kExampleMoves = 1.5;  // ... or so many mean moves ...
+constexpr double kExampleLengths = 4;  // ... and so many lengths from moved places
+constexpr double kRounding = 1e-6;     // a plane between two layers of voxels is in both, however they are rounded
 
 /// Matern's kernel of smoothness 3/2.
 double likeness(double distance, double length) {
@@ -162,11 +157,10 @@ private:
             if (known_[n] && std::abs(static_cast<double>(f_[n])) < near && std::isfinite(at_.looks[n]) &&
                 far_.distance_to_moved(center(n)) < kExampleLengths * near_.length_mm())
                 all.push_back(n);
-        const double share = kExamples / static_cast<double>(all.size());
+        const double share = kLookExamples / static_cast<double>(all.size());
         std::vector<LookExample> some;
         for (const std::size_t n : all)
-            if (place_in_turn(index_at(n, size_)) < share)
-                some.push_back({center(n), at_.looks[n], voxels_.alone[n] != 0});
+            if (place_in_turn(index_at(n, size_)) < share) some.push_back({center(n), at_.looks[n], voxels_.alone[n] != 0});
         std::vector<Vec3> places;
         for (const std::size_t voxel : asked_) places.push_back(center(voxel));
         return {std::move(some), kLooksReach * correction_.surface.radius_mm(), at_.grid, places};
@@ -175,15 +169,16 @@ private:
     /// How likely a voxel is inside by its depth and its look alone.
     double likely(std::size_t voxel, const LocalLooks& looks) const {
         const double sd = std::max(deviation(voxel), kLeastDeviation * smallest(spacing_));
-        const double odds = kLogistic * static_cast<double>(f_[voxel]) / sd +
-                            kLooksWeight * looks.log_odds(center(voxel), at_.looks[voxel]);
+        const double odds =
+            kLogistic * static_cast<double>(f_[voxel]) / sd + kLooksWeight * looks.log_odds(center(voxel), at_.looks[voxel]);
         return 1 / (1 + std::exp(-odds));
     }
 
     float step(std::size_t from, std::size_t to, int axis) const {
-        const double apart = static_cast<double>(at_.looks[from] - at_.looks[to]), side = smallest(spacing_) / spacing_[axis];
-        const double alike = std::isfinite(apart) ? std::exp(-kEdges * apart * apart) : 0;
-        return static_cast<float>((alike + kLeastStep) * side * side);
+        const double apart = static_cast<double>(at_.looks[from] - at_.looks[to]),
+                     side = smallest(spacing_) / spacing_[axis];
+        const double alike = std::isfinite(apart) ? std::exp(-kLookContrast * apart * apart) : 0;
+        return static_cast<float>((alike + kLeastStepWeight) * side * side);
     }
 
     std::vector<WalkPlace> places(const LocalLooks& looks) const {
@@ -267,8 +262,7 @@ std::optional<CarriedBox> carried_box(const MaskCorrection& correction, const Im
     if (far.is_zero()) return {};
     const Grid& whole = correction.mask.grid;
     const std::optional<IndexBox> reached = index_box(whole, far.box());
-    const std::optional<IndexBox> box =
-        reached ? common_box(*reached, correction.surface.window_box()) : std::nullopt;
+    const std::optional<IndexBox> box = reached ? common_box(*reached, correction.surface.window_box()) : std::nullopt;
     if (!box) return {};
     CarriedBox found{*box, grid_of(whole, *box)};
     const Intensities intensities(image);
@@ -284,8 +278,8 @@ std::optional<CarriedBox> carried_box(const MaskCorrection& correction, const Im
     found.looks.resize(values.size());
     parallel_for(static_cast<std::int64_t>(values.size()), 1 << 14, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-            found.looks[n] = std::isfinite(values[n]) ? static_cast<float>(scale(values[n]))
-                                                      : std::numeric_limits<float>::quiet_NaN();
+            found.looks[n] =
+                std::isfinite(values[n]) ? static_cast<float>(scale(values[n])) : std::numeric_limits<float>::quiet_NaN();
     });
     return found;
 }

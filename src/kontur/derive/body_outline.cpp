@@ -86,7 +86,8 @@ Mask above(const Image& image, double threshold) {
 int slice_axis(const Grid& grid) {
     int axis = 0;
     for (int n = 1; n < 3; ++n)
-        if (std::abs(normalized(grid.index_to_mm.column(n)).z) > std::abs(normalized(grid.index_to_mm.column(axis)).z)) axis = n;
+        if (std::abs(normalized(grid.index_to_mm.column(n)).z) > std::abs(normalized(grid.index_to_mm.column(axis)).z))
+            axis = n;
     return axis;
 }
 
@@ -103,9 +104,9 @@ void fill_slice(Mask& mask, int axis, std::int64_t index) {
     std::vector<std::array<std::int64_t, 2>> waiting;
     const auto visit = [&](std::int64_t a, std::int64_t b) {
         if (a < 0 || b < 0 || a >= columns || b >= rows) return;
-        std::uint8_t& seen = is_around[static_cast<std::size_t>(a + columns * b)];
-        if (seen || mask.values[place(a, b)]) return;
-        seen = 1;
+        std::uint8_t& mark = is_around[static_cast<std::size_t>(a + columns * b)];
+        if (mark || mask.values[place(a, b)]) return;
+        mark = 1;
         waiting.push_back({a, b});
     };
     for (std::int64_t a = 0; a < columns; ++a) visit(a, 0), visit(a, rows - 1);
@@ -138,9 +139,9 @@ Mask body_outline(const Image& image, const std::optional<double>& threshold, co
     const double least = threshold ? *threshold : range.low < kAirHu ? kSkinHu : otsu(image, range);
     Mask mask = above(image, least);
     if (std::find(mask.values.begin(), mask.values.end(), 1) == mask.values.end())
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("no voxel of the image lies above {:g}, so there is no body; give body() another threshold",
-                                least));
+        throw Error(
+            ErrorKind::invalid_input,
+            fmt::format("no voxel of the image lies above {:g}, so there is no body; give body() another threshold", least));
     const int axis = slice_axis(image.grid);
     const auto fill_slices = [&] {
         parallel_for(image.grid.size[axis], 1, work, [&](std::int64_t begin, std::int64_t end) {

@@ -57,7 +57,8 @@ std::vector<std::string> unique_names(const Expression& expression) {
 const Grid& grid_of(std::span<const NamedStructure> structures, const Image* image) {
     if (!structures.empty()) return structures.front().mask.grid;
     if (!image)
-        throw Error(ErrorKind::invalid_input, "there are 0 structures and no image; rules need at least 1 of either to work on");
+        throw Error(ErrorKind::invalid_input,
+                    "there are 0 structures and no image; rules need at least 1 of either to work on");
     return image->grid;
 }
 
@@ -85,19 +86,19 @@ std::vector<DerivedStructure> derive(std::span<const std::string> texts, std::sp
     for (const NamedStructure& one : structures)
         if (std::find(sources.begin(), sources.end(), one.name) != sources.end())
             scene.levels[one.name] = structure_levels(one, scene.lattice, work);
-    std::vector<DerivedStructure> made(rules.size());
+    std::vector<DerivedStructure> results(rules.size());
     for (std::size_t n = 0; n < order.size(); ++n) {
         work.report("derive", static_cast<double>(n) / static_cast<double>(order.size()));
         const Rule& rule = rules[order[n]];
         Levels& levels = scene.levels[rule.name];
         levels = evaluate(rule.expression, scene, work.untold());
-        DerivedStructure& result = made[order[n]];
+        DerivedStructure& result = results[order[n]];
         result = {rule.name, rule.text, unique_names(rule.expression), mask_of(levels, scene.lattice, grid), {}};
         result.outlines = level_contours(levels, scene.lattice, grid);
         result.outlines.name = rule.name;
     }
     work.report("derive", 1);
-    return made;
+    return results;
 }
 
 }  // namespace kontur

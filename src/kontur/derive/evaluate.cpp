@@ -13,14 +13,14 @@ namespace {
 class Operand {
 public:
     Operand(const Expression& e, const RuleScene& scene, const Work& work) {
-        if (e.operation == Operation::name) known_ = &scene.levels.at(e.name);
-        else made_ = evaluate(e, scene, work);
+        if (e.operation == Operation::name) given_levels_ = &scene.levels.at(e.name);
+        else own_levels_ = evaluate(e, scene, work);
     }
-    operator const Levels&() const { return known_ ? *known_ : made_; }
+    operator const Levels&() const { return given_levels_ ? *given_levels_ : own_levels_; }
 
 private:
-    const Levels* known_ = nullptr;
-    Levels made_;
+    const Levels* given_levels_ = nullptr;
+    Levels own_levels_;
 };
 
 }  // namespace
@@ -50,7 +50,8 @@ Levels evaluate(const Expression& e, const RuleScene& scene, const Work& work) {
         case Operation::drop:
             return parts_from(operand(0), grid, e.least_ml);
         case Operation::clip:
-            return kept_where(operand(0), grid, [&](const Vec3& p) { return e.plane.distance_to(p); }, work);
+            return kept_where(
+                operand(0), grid, [&](const Vec3& p) { return e.plane.distance_to(p); }, work);
     }
     return {};
 }

@@ -13,9 +13,9 @@
 namespace kontur {
 namespace {
 
-constexpr double kTie = 1e-4;        ///< mm; a centre that lies as far away as this within the length counts
+constexpr double kTie = 1e-4;         ///< mm; a centre that lies as far away as this within the length counts
 constexpr float kLeastDepth = 1e-3F;  ///< mm of a point inside, so that it stays so when as much is added and taken away
-constexpr double kNothing = 1e-3;    ///< mm, a length that moves nothing
+constexpr double kNothing = 1e-3;     ///< mm, a length that moves nothing
 
 /// Steps of a lattice that are at least so long, and one or two more.
 Index3 steps_of(const Grid& grid, double length_mm) {
@@ -46,16 +46,15 @@ Levels even_margin(const Levels& levels, const Grid& grid, double length_mm, Mar
     const double reach = reach_of(grid, length_mm);
     const bool grows = side == MarginSide::outwards;
     Levels result = grows ? on_box(levels, grown(levels.box, steps_of(grid, length_mm)), work) : levels;
-    const std::vector<float> distances =
-        crossings_distance(result, {.spacing_mm = grid.spacing_mm(), .reach = reach}, work);
+    const std::vector<float> distances = crossings_distance(result, {.spacing_mm = grid.spacing_mm(), .reach = reach}, work);
     const auto most = static_cast<float>(reach), by = static_cast<float>(grows ? length_mm + kTie : kTie - length_mm);
     const DistanceBound bound = levels.bound;
     change_levels(result, distances, work, [=](float level, float distance) {
         const float apart = std::min(distance, most);
-        const float moved = (level > 0 ? std::max(apart, kLeastDepth) : -apart) + by;
-        if (grows && bound == DistanceBound::at_most && level > kFarOutside) return std::min(moved, level + by);
-        if (!grows && bound == DistanceBound::at_least) return std::max(moved, level + by);
-        return moved;
+        const float shifted = (level > 0 ? std::max(apart, kLeastDepth) : -apart) + by;
+        if (grows && bound == DistanceBound::at_most && level > kFarOutside) return std::min(shifted, level + by);
+        if (!grows && bound == DistanceBound::at_least) return std::max(shifted, level + by);
+        return shifted;
     });
     result.bound = grows ? DistanceBound::at_least : DistanceBound::at_most;
     return trimmed(std::move(result));
@@ -85,8 +84,8 @@ Levels uneven_margin(const Levels& levels, const Grid& grid, const SideLengths& 
     Levels result = grows ? on_box(levels, grown(levels.box, steps_of(grid, largest)), work) : levels;
     const double reach = reach_of(grid, largest) / largest;
     const std::vector<float> distances = crossings_distance(
-        result,
-        {.spacing_mm = grid.spacing_mm(), .reach = reach, .weights = weights_of(lengths, *patient_axes(grid), side)}, work);
+        result, {.spacing_mm = grid.spacing_mm(), .reach = reach, .weights = weights_of(lengths, *patient_axes(grid), side)},
+        work);
     const auto most = static_cast<float>(reach), scale = static_cast<float>(largest);
     const auto tie = static_cast<float>(kTie / largest);
     change_levels(result, distances, work, [=](float level, float distance) {
@@ -109,9 +108,9 @@ Levels margin(const Levels& levels, const Grid& grid, const SideLengths& lengths
     if (is_empty(levels) || lengths.largest() == 0) return levels;
     if (needs_other_axes(grid, lengths)) {
         const Grid straight = patient_lattice(grid);
-        const Levels moved = on_lattice(margin(on_lattice(levels, grid, straight, work), straight, lengths, side, work),
-                                        straight, grid, work);
-        return side == MarginSide::outwards ? join(levels, moved, work) : meet(levels, moved, work);
+        const Levels shifted = on_lattice(margin(on_lattice(levels, grid, straight, work), straight, lengths, side, work),
+                                          straight, grid, work);
+        return side == MarginSide::outwards ? join(levels, shifted, work) : meet(levels, shifted, work);
     }
     return lengths.are_alike() ? even_margin(levels, grid, lengths.left, side, work)
                                : uneven_margin(levels, grid, lengths, side, work);

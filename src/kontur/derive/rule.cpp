@@ -17,13 +17,13 @@ constexpr int kMostDepth = 100;
 /// A direction of the patient, and how a length along it is named among SideLengths.
 struct Direction {
     std::string_view word;
-    double SideLengths::* length;
+    double SideLengths::*length;
     Vec3 towards;
 };
 constexpr std::array kDirections{
-    Direction{"left", &SideLengths::left, {1, 0, 0}},           Direction{"right", &SideLengths::right, {-1, 0, 0}},
-    Direction{"anterior", &SideLengths::anterior, {0, -1, 0}},  Direction{"posterior", &SideLengths::posterior, {0, 1, 0}},
-    Direction{"superior", &SideLengths::superior, {0, 0, 1}},   Direction{"inferior", &SideLengths::inferior, {0, 0, -1}},
+    Direction{"left", &SideLengths::left, {1, 0, 0}},          Direction{"right", &SideLengths::right, {-1, 0, 0}},
+    Direction{"anterior", &SideLengths::anterior, {0, -1, 0}}, Direction{"posterior", &SideLengths::posterior, {0, 1, 0}},
+    Direction{"superior", &SideLengths::superior, {0, 0, 1}},  Direction{"inferior", &SideLengths::inferior, {0, 0, -1}},
 };
 constexpr std::string_view kDirectionWords = "left, right, anterior, posterior, superior or inferior";
 
@@ -37,25 +37,25 @@ const Direction* direction_of(const RuleWord& word) {
 SideLengths everywhere(double length) { return {length, length, length, length, length, length}; }
 
 Expression with_operands(Operation operation, Expression a, Expression b) {
-    Expression made{.operation = operation, .place = a.place};
-    made.operands.push_back(std::move(a));
-    made.operands.push_back(std::move(b));
-    return made;
+    Expression expression{.operation = operation, .place = a.place};
+    expression.operands.push_back(std::move(a));
+    expression.operands.push_back(std::move(b));
+    return expression;
 }
 
 Expression with_operand(Operation operation, Expression a) {
-    Expression made{.operation = operation, .place = a.place};
-    made.operands.push_back(std::move(a));
-    return made;
+    Expression expression{.operation = operation, .place = a.place};
+    expression.operands.push_back(std::move(a));
+    return expression;
 }
 
 /// A gap of 0 moves nothing.
 Expression with_gap(Expression structure, double gap, MarginSide side) {
     if (gap == 0) return structure;
-    Expression made = with_operand(Operation::margin, std::move(structure));
-    made.lengths = everywhere(gap);
-    made.side = side;
-    return made;
+    Expression expression = with_operand(Operation::margin, std::move(structure));
+    expression.lengths = everywhere(gap);
+    expression.side = side;
+    return expression;
 }
 
 /// Reads by descent, one function for each line of the grammar.
@@ -69,7 +69,8 @@ public:
         rule.name = name("the name of the structure to make");
         expect("=", "a rule is NAME = EXPRESSION");
         rule.expression = sum();
-        if (word().kind != WordKind::end) refuse(fmt::format("the rule should end before '{}', or +, -, | or & come", word().text));
+        if (word().kind != WordKind::end)
+            refuse(fmt::format("the rule should end before '{}', or +, -, | or & come", word().text));
         return rule;
     }
 
@@ -98,51 +99,51 @@ private:
     /// sum = product { ("|" | "or" | "+" | "-") product | ("+" | "-") margin }
     Expression sum() {
         if (++depth_ > kMostDepth) refuse(fmt::format("brackets lie in each other more than {} times", kMostDepth));
-        Expression made = product();
+        Expression expression = product();
         while (true) {
             const bool adds = is("+"), takes = is("-");
             if ((adds || takes) && (word(1).kind == WordKind::number || is("{", 1) || is("-", 1))) {
                 ++at_;
-                made = with_margin(std::move(made), adds ? MarginSide::outwards : MarginSide::inwards);
+                expression = with_margin(std::move(expression), adds ? MarginSide::outwards : MarginSide::inwards);
             } else if (take("|") || take("or") || take("+")) {
-                made = with_operands(Operation::join, std::move(made), product());
+                expression = with_operands(Operation::join, std::move(expression), product());
             } else if (take("-")) {
-                made = with_operands(Operation::without, std::move(made), product());
+                expression = with_operands(Operation::without, std::move(expression), product());
             } else {
                 --depth_;
-                return made;
+                return expression;
             }
         }
     }
 
     /// product = operand { ("&" | "and") operand }
     Expression product() {
-        Expression made = operand();
-        while (take("&") || take("and")) made = with_operands(Operation::meet, std::move(made), operand());
-        return made;
+        Expression expression = operand();
+        while (take("&") || take("and")) expression = with_operands(Operation::meet, std::move(expression), operand());
+        return expression;
     }
 
     Expression operand() {
         const std::size_t place = word().place;
         if (take("(")) {
-            Expression made = sum();
+            Expression expression = sum();
             expect(")", "brackets that open have to close");
-            return made;
+            return expression;
         }
         if (word().kind == WordKind::name && is("(", 1)) return call();
         if (word().kind == WordKind::number) refuse("a structure is missing here; a length stands behind + or -");
-        Expression made{.place = place};
-        made.name = name("a structure");
-        return made;
+        Expression expression{.place = place};
+        expression.name = name("a structure");
+        return expression;
     }
 
     Expression call() {
         const RuleWord function = word();
         at_ += 2;
-        Expression made = arguments(function);
+        Expression expression = arguments(function);
         expect(")", fmt::format("{}(...) ends here", function.text));
-        made.place = function.place;
-        return made;
+        expression.place = function.place;
+        return expression;
     }
 
     Expression arguments(const RuleWord& function) {
@@ -158,25 +159,26 @@ private:
     }
 
     Expression body() {
-        Expression made{.operation = Operation::body};
-        if (is(")")) return made;
+        Expression expression{.operation = Operation::body};
+        if (is(")")) return expression;
         const bool below_0 = take("-");
-        made.threshold = number("the least value of the body, such as -250") * (below_0 ? -1 : 1);
-        return made;
+        expression.threshold = number("the least value of the body, such as -250") * (below_0 ? -1 : 1);
+        return expression;
     }
 
     Expression drop() {
-        Expression made = with_operand(Operation::drop, sum());
+        Expression expression = with_operand(Operation::drop, sum());
         expect(",", "drop(STRUCTURE, 0.5 ml) drops parts below that");
-        made.least_ml = number("a volume");
+        expression.least_ml = number("a volume");
         expect("ml", "a volume has its unit behind it");
-        return made;
+        return expression;
     }
 
     /// crop(A, B, gap) and avoid(A, B, gap).
     Expression beside(bool within) {
         Expression a = sum();
-        expect(",", within ? "crop(A, B, 3 mm) keeps of A what lies in B" : "avoid(A, B, 3 mm) keeps of A what lies out of B");
+        expect(",",
+               within ? "crop(A, B, 3 mm) keeps of A what lies in B" : "avoid(A, B, 3 mm) keeps of A what lies out of B");
         Expression b = sum();
         const double gap = take(",") ? length() : 0;
         Expression border = with_gap(std::move(b), gap, within ? MarginSide::inwards : MarginSide::outwards);
@@ -184,38 +186,39 @@ private:
     }
 
     Expression clip() {
-        Expression made = with_operand(Operation::clip, sum());
-        expect(",", "clip(A, superior 120 mm) keeps what lies superior of z = 120 mm, clip(A, (0, 0, 120), (0, 0, 1)) as well");
+        Expression expression = with_operand(Operation::clip, sum());
+        expect(",",
+               "clip(A, superior 120 mm) keeps what lies superior of z = 120 mm, clip(A, (0, 0, 120), (0, 0, 1)) as well");
         if (const Direction* towards = direction_of(word())) {
             ++at_;
             const bool below_0 = take("-");
             const double place = length() * (below_0 ? -1 : 1);
             const Vec3 along{std::abs(towards->towards.x), std::abs(towards->towards.y), std::abs(towards->towards.z)};
-            made.plane = make_plane(place * along, towards->towards);
-            return made;
+            expression.plane = make_plane(place * along, towards->towards);
+            return expression;
         }
         if (!is("(")) refuse(fmt::format("{} is missing here, or a point (x, y, z)", kDirectionWords));
         const Vec3 origin = vector();
         expect(",", "behind the point comes the direction of what stays, (x, y, z)");
-        made.plane = make_plane(origin, direction());
-        return made;
+        expression.plane = make_plane(origin, direction());
+        return expression;
     }
 
     /// margin = length | length "along" direction | "{" part { "," part } "}", where part = [ side ] length
     Expression with_margin(Expression structure, MarginSide side) {
         if (is("-")) refuse("a length cannot be below 0; '-' before it moves the surface inwards");
-        Expression made = with_operand(Operation::margin, std::move(structure));
-        made.side = side;
+        Expression expression = with_operand(Operation::margin, std::move(structure));
+        expression.side = side;
         if (take("{")) {
-            made.lengths = side_lengths();
-            return made;
+            expression.lengths = side_lengths();
+            return expression;
         }
         const double by = length();
-        made.lengths = everywhere(by);
-        if (!take("along")) return made;
-        made.operation = Operation::margin_along;
-        made.way = by * direction();
-        return made;
+        expression.lengths = everywhere(by);
+        if (!take("along")) return expression;
+        expression.operation = Operation::margin_along;
+        expression.way = by * direction();
+        return expression;
     }
 
     SideLengths side_lengths() {
@@ -253,7 +256,8 @@ private:
         double mm = number("a length such as 5 mm");
         if (take("cm")) mm *= 10;
         else expect("mm", "a length has its unit behind it, mm or cm");
-        if (mm > kMostMm) refuse_rule(text_, place, fmt::format("the length is {:g} mm, but must be at most {:g} mm", mm, kMostMm));
+        if (mm > kMostMm)
+            refuse_rule(text_, place, fmt::format("the length is {:g} mm, but must be at most {:g} mm", mm, kMostMm));
         return mm;
     }
 

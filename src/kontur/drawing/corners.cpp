@@ -62,17 +62,17 @@ Contour subdivide_to_corners(const Contour& contour, const std::vector<bool>& co
     check_above_0("the spacing at corners", nearest_mm, " mm");
     check_above_0("the spacing between corners", longest_mm, " mm");
     const std::size_t n = contour.points.size(), edges = contour.closed || n == 0 ? n : n - 1;
-    Contour subdivided = contour;
-    subdivided.points.clear();
+    Contour result = contour;
+    result.points.clear();
     for (std::size_t i = 0; i < edges; ++i) {
         const Vec3 &from = contour.points[i], &to = contour.points[(i + 1) % n];
         const double length = distance(from, to);
-        subdivided.points.push_back(from);
+        result.points.push_back(from);
         for (const double at : steps_along(length, corners[i], corners[(i + 1) % n], nearest_mm, longest_mm))
-            subdivided.points.push_back(from + (at / length) * (to - from));
+            result.points.push_back(from + (at / length) * (to - from));
     }
-    if (!contour.closed && n > 0) subdivided.points.push_back(contour.points.back());
-    return subdivided;
+    if (!contour.closed && n > 0) result.points.push_back(contour.points.back());
+    return result;
 }
 
 }  // namespace kontur

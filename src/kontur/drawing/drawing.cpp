@@ -35,10 +35,10 @@ void note_filling(const FillChanges& changes, std::vector<std::string>& notes) {
 }
 
 /// The number that each contour had before some were left out; they keep their order and first points.
-std::vector<std::size_t> numbers_before(const std::vector<Vec3>& first_points, const ContourSet& kept) {
+std::vector<std::size_t> numbers_before(const std::vector<Vec3>& first_points, const ContourSet& set) {
     std::vector<std::size_t> numbers;
     std::size_t n = 0;
-    for (const Contour& contour : kept.contours) {
+    for (const Contour& contour : set.contours) {
         while (n + 1 < first_points.size() && first_points[n] != contour.points.front()) ++n;
         numbers.push_back(n++);
     }
@@ -89,12 +89,12 @@ void leave_out_specks(ContourSet& set, const std::vector<Vec3>& first_points, st
     while (first < count && !is_speck(first)) ++first;
     if (first == count) return;
     const std::size_t number = numbers_before(first_points, set)[first] + 1;
-    std::vector<Contour> kept;
+    std::vector<Contour> others;
     for (std::size_t c = 0; c < count; ++c)
-        if (!is_speck(c)) kept.push_back(set.contours[c]);
-    const std::size_t left_out = count - kept.size();
+        if (!is_speck(c)) others.push_back(set.contours[c]);
+    const std::size_t left_out = count - others.size();
     const double first_mm = across_mm[first];
-    set.contours = std::move(kept);
+    set.contours = std::move(others);
     notes.push_back(left_out == 1 ? fmt::format("contour {} is {:.2g} mm across and was left out", number, first_mm)
                                   : fmt::format("{} contours less than {:.2g} mm across were left out, the first of them "
                                                 "contour {}",
@@ -115,43 +115,43 @@ void leave_out_spikes(ContourSet& set, double spike_tolerance_mm, std::vector<st
 }
 
 /// Contours that are thinned begin elsewhere: the first points of all say so.
-Tidied thin_vast(ContourSet& set, std::vector<Vec3>& first_points, const TidyOptions& options) {
+TidyReport thin_vast(ContourSet& set, std::vector<Vec3>& first_points, const TidyOptions& options) {
     const std::vector<std::size_t> numbers = numbers_before(first_points, set);
-    const Tidied tidied = thin_vast(set, options);
+    const TidyReport report = thin_vast(set, options);
     for (std::size_t c = 0; c < set.contours.size(); ++c) first_points[numbers[c]] = set.contours[c].points.front();
-    return tidied;
+    return report;
 }
 
 /// Of different contours: those that were thinned have too few points to be thinned again.
-Tidied sum(const Tidied& a, const Tidied& b) {
+TidyReport sum(const TidyReport& a, const TidyReport& b) {
     return {a.spike_points + b.spike_points, a.thinned_contours + b.thinned_contours, a.thinned_points + b.thinned_points,
             std::max(a.thinned_mm, b.thinned_mm)};
 }
 
-void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
-    if (tidied.spike_points > 0)
-        notes.push_back(counted(tidied.spike_points, "point") + (tidied.spike_points == 1
+void note_tidying(const TidyReport& report, std::vector<std::string>& notes) {
+    if (report.spike_points > 0)
+        notes.push_back(counted(report.spike_points, "point") + (report.spike_points == 1
                                                                      ? " of a spike, which encloses nothing, was left out"
                                                                      : " of spikes, which enclose nothing, were left out"));
-    if (tidied.thinned_contours > 0)
+    if (report.thinned_contours > 0)
         notes.push_back(
             fmt::format("{} with very many points {} thinned: {} left out, none farther than "
                         "{:.2g} mm from the contour that was kept",
-                        counted(tidied.thinned_contours, "contour"), tidied.thinned_contours == 1 ? "was" : "were",
-                        counted(tidied.thinned_points, "point"), tidied.thinned_mm));
+                        counted(report.thinned_contours, "contour"), report.thinned_contours == 1 ? "was" : "were",
+                        counted(report.thinned_points, "point"), report.thinned_mm));
 }
 
 }  // namespace
 
 Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
-    if (const std::size_t dropped = drop_duplicate_points(contours); dropped > 0)
-        notes.push_back(counted(dropped, "repeated point") + (dropped == 1 ? " was left out" : " were left out"));
+    if (const std::size_t repeated = drop_duplicate_points(contours); repeated > 0)
+        notes.push_back(counted(repeated, "repeated point") + (repeated == 1 ? " was left out" : " were left out"));
     std::vector<Vec3> first = first_points(contours);
     for (std::string& note : check_and_tidy(contours)) notes.push_back(std::move(note));
     const double drawn_mm = smallest_ball(contours).diameter();
     const TidyOptions tidy_options{1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm};
     const std::size_t all_points = point_count(contours);
-    const Tidied vast = thin_vast(contours, first, tidy_options);
+    const TidyReport vast = thin_vast(contours, first, tidy_options);
     const std::size_t left_out = all_points - point_count(contours);
     leave_out_specks(contours, first, notes);
     leave_out_spikes(contours, tidy_options.spike_tolerance_mm, notes);
@@ -164,7 +164,7 @@ Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
     crossings = find_crossings(contours);
     tidied = contours;
     points_drawn = point_count(contours) + left_out;
-    note_tidied(sum(vast, tidy(tidied, tidy_options)), notes);
+    note_tidying(sum(vast, tidy(tidied, tidy_options)), notes);
     ball = smallest_ball(tidied);
 }
 

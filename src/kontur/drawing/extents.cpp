@@ -37,43 +37,43 @@ std::vector<Link> shortest_links(const std::vector<Ball3>& balls) {
     for (std::size_t c = 1; c < balls.size(); ++c) nearest.push_back({0, c, gap_mm(balls[0], balls[c])});
     while (!nearest.empty()) {
         const auto next = std::ranges::min_element(nearest, {}, &Link::gap_mm);
-        const std::size_t joined = next->to;
+        const std::size_t contour = next->to;
         links.push_back(*next);
         *next = nearest.back();
         nearest.pop_back();
         for (Link& link : nearest)
-            if (const double gap = gap_mm(balls[joined], balls[link.to]); gap < link.gap_mm) link = {joined, link.to, gap};
+            if (const double gap = gap_mm(balls[contour], balls[link.to]); gap < link.gap_mm) link = {contour, link.to, gap};
     }
     std::ranges::stable_sort(links, {}, &Link::gap_mm);
     return links;
 }
 
 /// What has been joined so far.
-struct Joined {
+struct Part {
     std::vector<std::size_t> contours;
     Ball3 ball;
     double bond = 1;  ///< how surely it is one part
 };
 
-double bond_of(const Joined& a, const Joined& b, double gap_mm) {
+double bond_of(const Part& a, const Part& b, double gap_mm) {
     const bool is_lone = a.contours.size() == 1 || b.contours.size() == 1;
     const double ratio = gap_mm / std::max(std::max(a.ball.radius, b.ball.radius), 1e-300);
     return 1 - (is_lone ? smooth_step(kLone, kLonely, ratio) : smooth_step(kOne, kTwo, ratio));
 }
 
-Ball3 exact_ball(const ContourSet& drawn, const std::vector<std::size_t>& contours) {
+Ball3 exact_ball(const ContourSet& set, const std::vector<std::size_t>& contours) {
     std::vector<Vec3> points;
     for (const std::size_t c : contours)
-        points.insert(points.end(), drawn.contours[c].points.begin(), drawn.contours[c].points.end());
+        points.insert(points.end(), set.contours[c].points.begin(), set.contours[c].points.end());
     return smallest_ball(points);
 }
 
 }  // namespace
 
-Extents::Extents(const ContourSet& drawn, const Ball3& ball) : whole_mm_(ball.radius) {
-    for (const Contour& contour : drawn.contours) contours_.push_back(smallest_ball(contour.points));
+Extents::Extents(const ContourSet& set, const Ball3& ball) : whole_mm_(ball.radius) {
+    for (const Contour& contour : set.contours) contours_.push_back(smallest_ball(contour.points));
     part_mm_.resize(contours_.size(), whole_mm_);
-    if (!contours_.empty()) join(drawn);
+    if (!contours_.empty()) join(set);
     is_one_part_ = std::ranges::all_of(part_mm_, [&](double mm) { return mm >= whole_mm_; });
 }
 
@@ -81,8 +81,8 @@ void Extents::set_part(const std::vector<std::size_t>& contours, double radius_m
     for (const std::size_t c : contours) part_mm_[c] = radius_mm;
 }
 
-void Extents::join(const ContourSet& drawn) {
-    std::vector<Joined> all;
+void Extents::join(const ContourSet& set) {
+    std::vector<Part> all;
     std::vector<std::size_t> of(contours_.size());
     for (std::size_t c = 0; c < contours_.size(); ++c) {
         all.push_back({{c}, contours_[c]});
@@ -90,13 +90,13 @@ void Extents::join(const ContourSet& drawn) {
     }
     bool is_whole = true;
     for (const Link& link : shortest_links(contours_)) {
-        Joined &one = all[of[link.from]], &other = all[of[link.to]];
+        Part &one = all[of[link.from]], &other = all[of[link.to]];
         const double bond = bond_of(one, other, link.gap_mm) * std::min(one.bond, other.bond);
         is_whole = is_whole && bond == 1;
         if (bond == 0) continue;
         if (bond < 1)
-            for (const Joined* part : {&one, &other})
-                if (part->bond == 1) set_part(part->contours, exact_ball(drawn, part->contours).radius);
+            for (const Part* part : {&one, &other})
+                if (part->bond == 1) set_part(part->contours, exact_ball(set, part->contours).radius);
         const std::size_t index = of[link.from];
         for (const std::size_t c : other.contours) of[c] = index;
         one.contours.insert(one.contours.end(), other.contours.begin(), other.contours.end());
@@ -104,13 +104,13 @@ void Extents::join(const ContourSet& drawn) {
         one.ball = around(one.ball, other.ball);
         one.bond = bond;
         if (bond == 1) continue;
-        const double radius = exact_ball(drawn, one.contours).radius;
+        const double radius = exact_ball(set, one.contours).radius;
         for (const std::size_t c : one.contours) part_mm_[c] = std::lerp(part_mm_[c], radius, bond);
     }
-    for (Joined& one : all) {
+    for (Part& one : all) {
         if (one.contours.empty()) continue;
         std::ranges::sort(one.contours);
-        if (one.bond == 1) set_part(one.contours, is_whole ? whole_mm_ : exact_ball(drawn, one.contours).radius);
+        if (one.bond == 1) set_part(one.contours, is_whole ? whole_mm_ : exact_ball(set, one.contours).radius);
         parts_.push_back(std::move(one.contours));
     }
     std::ranges::sort(parts_, {}, [](const std::vector<std::size_t>& part) { return part.front(); });

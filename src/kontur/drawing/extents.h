@@ -9,15 +9,15 @@
 
 namespace kontur {
 
-/// How large the part of a drawing is that a place belongs to, against all that was drawn. Contours are joined, the nearest
-/// first. Two groups of them are two parts where the gap is three and a half radii of the larger one, and less and less so
-/// down to two radii, more than evenly spaced rings leave. With a single contour they are two from fifty radii on. So
-/// lesions far from each other are fitted as if each was drawn alone, and one object as a whole, however small some of its
-/// sections. Follows continuously when contours move, and turns and scales with them.
+/// How large the part of a drawing is that a place belongs to, relative to the whole. Contours are joined, the nearest
+/// first. Two groups are two parts where the gap is at least three and a half radii of the larger one, and one part up to
+/// two radii, which is more than evenly spaced rings leave. A single contour is a part of its own from fifty radii on. So
+/// distant lesions are fitted as if each was drawn alone, but small sections of one object are not. Continuous in the
+/// contours; turns and scales with them.
 class Extents {
 public:
     /// `ball` is the smallest one around all that was drawn.
-    Extents(const ContourSet& drawn, const Ball3& ball);
+    Extents(const ContourSet& set, const Ball3& ball);
 
     bool is_one_part() const { return is_one_part_; }
 
@@ -29,7 +29,7 @@ public:
     const std::vector<std::vector<std::size_t>>& parts() const { return parts_; }
 
 private:
-    void join(const ContourSet& drawn);
+    void join(const ContourSet& set);
     void set_part(const std::vector<std::size_t>& contours, double radius_mm);
 
     double whole_mm_;

@@ -64,7 +64,7 @@ void leave_out_inner_lines(const DrawnPlanes& planes, double cleft_mm, std::vect
     const auto is_cut = [&](const BoundaryPoint& p) {
         return p.on_ring && p.contour != kNoContour && planes.image->is_border(p.position, p.inplane_normal);
     };
-    std::vector<BoundaryPoint> kept;
+    std::vector<BoundaryPoint> outer_points;
     for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
         std::vector<bool> is_inner;
         const auto is_of_line = [&](const BoundaryPoint& p) {
@@ -78,10 +78,11 @@ void leave_out_inner_lines(const DrawnPlanes& planes, double cleft_mm, std::vect
                                               points.begin() + static_cast<std::ptrdiff_t>(end));
         if (planes.image && 2 * std::ranges::count_if(line, is_cut) < std::ssize(line))
             for (std::size_t i = 0; i < line.size(); ++i) is_inner[i] = is_inner[i] || is_cut(line[i]);
-        if (std::ranges::find(is_inner, true) == is_inner.end()) kept.insert(kept.end(), line.begin(), line.end());
-        else append_borders(line, is_inner, kept);
+        if (std::ranges::find(is_inner, true) == is_inner.end())
+            outer_points.insert(outer_points.end(), line.begin(), line.end());
+        else append_borders(line, is_inner, outer_points);
     }
-    points = std::move(kept);
+    points = std::move(outer_points);
 }
 
 }  // namespace kontur

@@ -51,13 +51,13 @@ std::vector<std::size_t> make_one_line(ContourSet& set, const std::vector<NearLi
     std::vector<std::vector<Contour>> lines(count);
     for (std::size_t c = 0; c < count; ++c) lines[groups.of(c)].push_back(std::move(set.contours[c]));
     set.contours.clear();
-    std::vector<std::size_t> kept;
+    std::vector<std::size_t> numbers;
     for (std::size_t c = 0; c < count; ++c) {
         if (lines[c].empty()) continue;
-        kept.push_back(c);
+        numbers.push_back(c);
         set.contours.push_back(lines[c].size() == 1 ? std::move(lines[c].front()) : mean_line(std::move(lines[c])));
     }
-    return kept;
+    return numbers;
 }
 
 }  // namespace kontur

@@ -38,9 +38,9 @@ struct AllLines {
     const PlaneLines& with(std::int32_t contour) const { return all[of[static_cast<std::size_t>(contour)]]; }
 };
 
-AllLines lines_of(std::span<const PreparedLine> prepared, Contour PreparedLine::*state, double tolerance_mm) {
+AllLines lines_of(std::span<const PreparedLine> prepared_lines, Contour PreparedLine::*state, double tolerance_mm) {
     std::vector<Contour> contours;
-    for (const PreparedLine& line : prepared) contours.push_back(line.*state);
+    for (const PreparedLine& line : prepared_lines) contours.push_back(line.*state);
     const std::vector<std::size_t> plane = shared_planes(contours, tolerance_mm);
     AllLines lines{{}, std::vector<std::size_t>(contours.size())};
     for (std::size_t c = 0; c < contours.size(); ++c)
@@ -114,24 +114,24 @@ public:
 
     NarrowEdges(const PlaneLines& lines_here, const Limits& limits) : lines_(lines_here), limits_(limits) {}
 
-    std::vector<Vec3> subdivided(const std::vector<Vec3>& drawn, const Contour& subdivided) const {
-        const std::vector<Vec3>& all = subdivided.points;
+    std::vector<Vec3> subdivision(const std::vector<Vec3>& drawn_points, const Contour& line) const {
+        const std::vector<Vec3>& all = line.points;
         const std::size_t n = all.size();
         const auto turn_at = [&](std::size_t i) {
-            if (!subdivided.closed && (i == 0 || i == n - 1)) return 0.0;
+            if (!line.closed && (i == 0 || i == n - 1)) return 0.0;
             return turn(all[(i + n - 1) % n], all[i], all[(i + 1) % n]);
         };
         std::vector<Vec3> points;
         std::size_t next = 0;  // of the drawn points
         bool is_long = false;
-        for (std::size_t i = 0; i < (subdivided.closed ? n : n - 1); ++i) {
-            if (next < drawn.size() && all[i] == drawn[next]) {
+        for (std::size_t i = 0; i < (line.closed ? n : n - 1); ++i) {
+            if (next < drawn_points.size() && all[i] == drawn_points[next]) {
                 ++next;
-                is_long = distance(all[i], drawn[next % drawn.size()]) > limits_.long_mm;
+                is_long = distance(all[i], drawn_points[next % drawn_points.size()]) > limits_.long_mm;
             }
             append({all[i], all[(i + 1) % n], turn_at(i), turn_at((i + 1) % n)}, is_long, points);
         }
-        if (!subdivided.closed) points.push_back(all.back());
+        if (!line.closed) points.push_back(all.back());
         return points;
     }
 
@@ -175,9 +175,9 @@ private:
 
 }  // namespace
 
-void find_opposite_walls(std::span<const PreparedLine> prepared, double reach_mm, double tolerance_mm,
+void find_opposite_walls(std::span<const PreparedLine> prepared_lines, double reach_mm, double tolerance_mm,
                          std::vector<BoundaryPoint>& points, const Work& work) {
-    const AllLines lines = lines_of(prepared, &PreparedLine::fitted, tolerance_mm);
+    const AllLines lines = lines_of(prepared_lines, &PreparedLine::fitted, tolerance_mm);
     const double own = own_edge(tolerance_mm);
     parallel_for(static_cast<std::int64_t>(points.size()), 128, work, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
@@ -190,14 +190,14 @@ void find_opposite_walls(std::span<const PreparedLine> prepared, double reach_mm
     });
 }
 
-void subdivide_narrow(std::span<PreparedLine> prepared, double bulge_mm, double tolerance_mm, const Work& work) {
-    const AllLines lines = lines_of(prepared, &PreparedLine::reduced, tolerance_mm);
-    parallel_for(static_cast<std::int64_t>(prepared.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
+void subdivide_narrow(std::span<PreparedLine> prepared_lines, double bulge_mm, double tolerance_mm, const Work& work) {
+    const AllLines lines = lines_of(prepared_lines, &PreparedLine::reduced, tolerance_mm);
+    parallel_for(static_cast<std::int64_t>(prepared_lines.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
-            PreparedLine& line = prepared[static_cast<std::size_t>(begin)];
+            PreparedLine& line = prepared_lines[static_cast<std::size_t>(begin)];
             const NarrowEdges edges(lines.with(static_cast<std::int32_t>(begin)),
                                     {line.shortest_mm, line.long_mm, bulge_mm, own_edge(tolerance_mm)});
-            line.fitted.points = edges.subdivided(line.reduced.points, line.fitted);
+            line.fitted.points = edges.subdivision(line.reduced.points, line.fitted);
         }
     });
 }

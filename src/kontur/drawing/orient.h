@@ -19,12 +19,12 @@ struct ContourOrientation {
     std::vector<Vec3> between_crossings;
 };
 
-/// Normals by Eq. 7, their sign walked along the contour from its point of smallest in-plane coordinate, which is surely
-/// convex, and flipped wherever a segment crosses others an odd number of times: both lobes of a figure of eight get
-/// outward normals, as under the even-odd rule. Also right where a contour runs through its own points or along its own
-/// segments: the sign is flipped there as if its points were displaced infinitesimally. All decisions are exact on the
-/// in-plane coordinates. Needs at least 3 points of which none repeats the one before it. O(n log n) time for n points of
-/// which few lie side by side. Throws Error(invalid_input) for fewer.
+/// Normals by Eq. 7. Their sign is known at the point of smallest in-plane coordinate, which is surely convex. From there it
+/// is walked along the contour, and flipped wherever a segment crosses others an odd number of times. So both lobes of a
+/// figure of eight get outward normals, as under the even-odd rule. Where a contour runs through its own points or segments,
+/// the sign is flipped as if its points were displaced infinitesimally. Decisions are exact on the in-plane coordinates.
+/// Needs at least 3 points of which none repeats the one before it. O(n log n) for n points of which few lie side by side.
+/// Throws Error(invalid_input) for fewer.
 ContourOrientation orient(const Contour& contour);
 
 /// Unit in-plane normals of an open contour, one per point, to the left of someone who walks along it (Eq. 7; at the ends

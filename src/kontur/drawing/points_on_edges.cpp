@@ -24,11 +24,11 @@ Contour without_points_on_edges(const Contour& contour, double tolerance_mm) {
             if (last + step <= end && is_edge(first, last + step)) last += step;
         return last;
     };
-    Contour kept = contour;
-    kept.points.clear();
-    for (std::size_t first = 0; first < end; first = end_of_edge(first)) kept.points.push_back(points[first]);
-    if (!contour.closed) kept.points.push_back(points.back());
-    return contour.closed && kept.points.size() < 3 ? contour : kept;
+    Contour result = contour;
+    result.points.clear();
+    for (std::size_t first = 0; first < end; first = end_of_edge(first)) result.points.push_back(points[first]);
+    if (!contour.closed) result.points.push_back(points.back());
+    return contour.closed && result.points.size() < 3 ? contour : result;
 }
 
 }  // namespace kontur

@@ -57,13 +57,13 @@ std::vector<std::vector<Doubt>> doubts_by_contour(std::span<const Crossing> cros
 }
 
 double trust_at(const Vec3& p, const std::vector<Doubt>& doubts) {
-    double doubted = 0;
+    double largest_doubt = 0;
     for (const Doubt& doubt : doubts) {
         const double away = std::min(distance(p, doubt.position), distance(p, doubt.other_position));
         const double inward = std::max(0.0, 1 - away / doubt.radius_mm);
-        doubted = std::max(doubted, doubt.weight * std::pow(inward, 4));
+        largest_doubt = std::max(largest_doubt, doubt.weight * std::pow(inward, 4));
     }
-    return 1 / (1 + doubted);
+    return 1 / (1 + largest_doubt);
 }
 
 }  // namespace

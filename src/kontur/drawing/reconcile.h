@@ -21,14 +21,14 @@ struct ReconcileOptions {
     double reach = 3;       ///< how far around a crossing, in multiples of the disagreement, contours yield
 };
 
-/// Lowers the trust in the points about every crossing at which contours disagree, in proportion to the square of the
-/// disagreement, as measurement errors would have it: smoothing follows the measured disagreement, and only there. The noise
-/// that is granted (1 / sqrt of the trust) fades with the square of the way from the edge, so that a point that a drag moves
-/// into the surroundings of a crossing is let go of by and by. Elsewhere contours keep their trust. Of two that both yield,
-/// the one that is trusted more (Contour::weight) yields less: with trusts v and w the first gets 2 w / (v + w) times what
-/// equal ones yield. `crossings` are those of find_crossings on the set that the points were made from. O(points * crossings
-/// of their contour). Throws Error(invalid_input) for an offset or reach that is not above 0, a strength below 0, and any
-/// that is not finite.
+/// Lowers the trust in the points about every crossing at which contours disagree, by the square of the disagreement, as
+/// for measurement errors. So smoothing follows the measured disagreement, and acts only there. The granted noise (1 /
+/// sqrt of the trust) fades with the square of the way from the edge. So a point that a drag moves towards a crossing
+/// loses trust gradually. Elsewhere contours keep their trust. Of two that both yield, the more trusted one
+/// (Contour::weight) yields less: with trusts v and w the first gets 2 w / (v + w) times what equal ones yield.
+/// `crossings` are those of find_crossings on the set that the points were made from. O(points * crossings of their
+/// contour). Throws Error(invalid_input) for an offset or reach that is not above 0, a strength below 0, and any that is
+/// not finite.
 void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, double diameter_mm,
                const ReconcileOptions& options = {});
 

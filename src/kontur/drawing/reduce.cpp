@@ -76,28 +76,28 @@ Contour reduce(const Contour& contour, const ReduceOptions& options) {
                     fmt::format("a contour is to be reduced to {} points; at least 2 must stay", options.min_points));
     const std::size_t n = contour.points.size();
     // 0.55 * 100 is a little more than 55 in binary; that must not cost a point.
-    const auto wanted = static_cast<std::size_t>(std::ceil(options.quality * static_cast<double>(n) * (1 - 1e-12)));
-    const std::size_t keep = std::max(wanted, options.min_points);
+    const auto target = static_cast<std::size_t>(std::ceil(options.quality * static_cast<double>(n) * (1 - 1e-12)));
+    const std::size_t keep = std::max(target, options.min_points);
     if (keep >= n) return contour;
 
     Ring ring(contour);
     using Candidate = std::pair<double, std::size_t>;  // weight when queued, point: ties go to the earlier point
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
     for (std::size_t i = 0; i < n; ++i) queue.emplace(ring.weight(i), i);
-    for (std::size_t left = n; left > keep;) {
+    for (std::size_t count = n; count > keep;) {
         const auto [weight, i] = queue.top();
         queue.pop();
         if (!ring.alive(i) || weight != ring.weight(i)) continue;  // outdated
         ring.remove(i);
-        --left;
+        --count;
         for (const std::size_t neighbour : {ring.before(i), ring.after(i)}) queue.emplace(ring.weight(neighbour), neighbour);
     }
 
-    Contour reduced = contour;
-    reduced.points.clear();
+    Contour result = contour;
+    result.points.clear();
     for (std::size_t i = 0; i < n; ++i)
-        if (ring.alive(i)) reduced.points.push_back(contour.points[i]);
-    return reduced;
+        if (ring.alive(i)) result.points.push_back(contour.points[i]);
+    return result;
 }
 
 }  // namespace kontur

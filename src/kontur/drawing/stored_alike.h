@@ -11,8 +11,8 @@ namespace kontur {
 /// patient's axes where there is none.
 Affine3 frame_of(const ContourSet& contours);
 
-/// The set with its contours in the order of their middles along the z of its frame, as those of a stack lie, and its rings
-/// begun as begin_alike says: what is made from it does not depend on how it was stored.
+/// The same set in an order that does not depend on how it was stored: contours by their middles along the z of its frame,
+/// as in a stack, and rings with the beginning that begin_alike says.
 ContourSet stored_alike(ContourSet set);
 
 }  // namespace kontur

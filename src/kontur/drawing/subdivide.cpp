@@ -14,19 +14,18 @@ Contour subdivide(const Contour& contour, int least_segments) {
     if (n < 2) return contour;
     const double total = line_length(contour.points, contour.closed);
     const double average = total / static_cast<double>(segments);
-    const double wanted = least_segments > 0 ? std::min(average, total / least_segments) : average;
+    const double spacing = least_segments > 0 ? std::min(average, total / least_segments) : average;
 
-    Contour subdivided = contour;
-    subdivided.points.clear();
+    Contour result = contour;
+    result.points.clear();
     for (std::size_t i = 0; i < segments; ++i) {
         const Vec3 &from = contour.points[i], &to = contour.points[(i + 1) % n];
         const double length = distance(from, to);
-        const auto pieces = length > 2 * wanted ? static_cast<int>(std::round(length / wanted)) : 1;
-        for (int piece = 0; piece < pieces; ++piece)
-            subdivided.points.push_back(from + (to - from) * (double(piece) / pieces));
+        const auto pieces = length > 2 * spacing ? static_cast<int>(std::round(length / spacing)) : 1;
+        for (int piece = 0; piece < pieces; ++piece) result.points.push_back(from + (to - from) * (double(piece) / pieces));
     }
-    if (!contour.closed) subdivided.points.push_back(contour.points.back());
-    return subdivided;
+    if (!contour.closed) result.points.push_back(contour.points.back());
+    return result;
 }
 
 }  // namespace kontur

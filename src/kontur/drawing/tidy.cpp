@@ -22,24 +22,24 @@ bool is_spike(const Vec3& before, const Vec3& tip, const Vec3& after, double tol
 
 /// The path without spikes, by one pass that looks again at the point before a spike that was taken out.
 std::vector<Vec3> without_spikes(const std::vector<Vec3>& path, double tolerance) {
-    std::vector<Vec3> kept;
+    std::vector<Vec3> rest;
     for (const Vec3& p : path) {
-        while (kept.size() > 1 && is_spike(kept[kept.size() - 2], kept.back(), p, tolerance)) kept.pop_back();
-        if (kept.empty() || !(kept.back() == p)) kept.push_back(p);
+        while (rest.size() > 1 && is_spike(rest[rest.size() - 2], rest.back(), p, tolerance)) rest.pop_back();
+        if (rest.empty() || !(rest.back() == p)) rest.push_back(p);
     }
-    return kept;
+    return rest;
 }
 
 /// The same for a closed path, whose seam is looked at afterwards.
 std::vector<Vec3> without_spikes_around(const std::vector<Vec3>& ring, double tolerance) {
-    std::vector<Vec3> kept = without_spikes(ring, tolerance);
-    while (kept.size() > 2) {
-        const std::size_t n = kept.size();
-        if (kept[n - 1] == kept[0] || is_spike(kept[n - 2], kept[n - 1], kept[0], tolerance)) kept.pop_back();
-        else if (is_spike(kept[n - 1], kept[0], kept[1], tolerance)) kept.erase(kept.begin());
+    std::vector<Vec3> rest = without_spikes(ring, tolerance);
+    while (rest.size() > 2) {
+        const std::size_t n = rest.size();
+        if (rest[n - 1] == rest[0] || is_spike(rest[n - 2], rest[n - 1], rest[0], tolerance)) rest.pop_back();
+        else if (is_spike(rest[n - 1], rest[0], rest[1], tolerance)) rest.erase(rest.begin());
         else break;
     }
-    return kept;
+    return rest;
 }
 
 std::vector<Vec3> points_without_spikes(const Contour& contour, double tolerance) {
@@ -108,7 +108,7 @@ constexpr double kOnEdge = 0.07;  // of the tolerance for spikes: so near to an 
 
 constexpr std::size_t kVast = 4;  // times as many points as are kept
 
-void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
+void thin(Contour& contour, const TidyOptions& options, TidyReport& report) {
     const std::size_t most = std::max<std::size_t>(options.most_points, 4);
     const std::size_t before = contour.points.size();
     if (before <= most) return;
@@ -116,9 +116,9 @@ void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
     contour = without_points_on_edges(contour, kOnEdge * options.spike_tolerance_mm);
     if (contour.points.size() <= most) {
         if (before / kVast <= options.most_points) return;
-        ++tidied.thinned_contours;
-        tidied.thinned_points += before - contour.points.size();
-        tidied.thinned_mm = std::max(tidied.thinned_mm, kOnEdge * options.spike_tolerance_mm);
+        ++report.thinned_contours;
+        report.thinned_points += before - contour.points.size();
+        report.thinned_mm = std::max(report.thinned_mm, kOnEdge * options.spike_tolerance_mm);
         return;
     }
     const Significance significance(contour);
@@ -127,14 +127,14 @@ void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
     std::nth_element(sorted.begin(), last_kept, sorted.end(), std::greater<>());
     const double limit = std::max(*last_kept, options.thin_tolerance_mm);
 
-    std::vector<Vec3> kept;
+    std::vector<Vec3> rest;
     for (std::size_t i = 0; i < contour.points.size(); ++i) {
-        if (significance.values()[i] > limit) kept.push_back(contour.points[i]);
-        else tidied.thinned_mm = std::max(tidied.thinned_mm, significance.values()[i]);
+        if (significance.values()[i] > limit) rest.push_back(contour.points[i]);
+        else report.thinned_mm = std::max(report.thinned_mm, significance.values()[i]);
     }
-    ++tidied.thinned_contours;
-    tidied.thinned_points += before - kept.size();
-    contour.points = std::move(kept);
+    ++report.thinned_contours;
+    report.thinned_points += before - rest.size();
+    contour.points = std::move(rest);
 }
 
 void check(const TidyOptions& options) {
@@ -144,21 +144,21 @@ void check(const TidyOptions& options) {
 
 }  // namespace
 
-Tidied thin_vast(ContourSet& set, const TidyOptions& options) {
+TidyReport thin_vast(ContourSet& set, const TidyOptions& options) {
     check(options);
-    Tidied tidied;
+    TidyReport report;
     for (Contour& contour : set.contours)
-        if (contour.points.size() / kVast > options.most_points) thin(contour, options, tidied);
-    return tidied;
+        if (contour.points.size() / kVast > options.most_points) thin(contour, options, report);
+    return report;
 }
 
 bool is_only_spikes(const Contour& contour, double spike_tolerance_mm) {
     return points_without_spikes(contour, spike_tolerance_mm).size() < least_points(contour);
 }
 
-Tidied tidy(ContourSet& set, const TidyOptions& options) {
+TidyReport tidy(ContourSet& set, const TidyOptions& options) {
     check(options);
-    Tidied tidied;
+    TidyReport report;
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         Contour& contour = set.contours[c];
         const std::size_t before = contour.points.size();
@@ -166,10 +166,10 @@ Tidied tidy(ContourSet& set, const TidyOptions& options) {
         if (contour.points.size() < least_points(contour))
             throw Error(ErrorKind::invalid_input,
                         "contour " + std::to_string(c + 1) + " is nothing but a path back along itself");
-        tidied.spike_points += before - contour.points.size();
-        thin(contour, options, tidied);
+        report.spike_points += before - contour.points.size();
+        thin(contour, options, report);
     }
-    return tidied;
+    return report;
 }
 
 }  // namespace kontur

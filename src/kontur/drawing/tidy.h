@@ -14,7 +14,7 @@ struct TidyOptions {
 };
 
 /// What was taken out of the contours.
-struct Tidied {
+struct TidyReport {
     std::size_t spike_points = 0;
     std::size_t thinned_contours = 0;
     std::size_t thinned_points = 0;
@@ -23,7 +23,7 @@ struct Tidied {
 
 /// Thins contours of more than four times `most_points` points, as `tidy` does: a line of 20,000 points on a hand's breadth
 /// says what 400 of them say, and everything that is asked of a contour takes longer by as much. O(n log n).
-Tidied thin_vast(ContourSet& set, const TidyOptions& options = {});
+TidyReport thin_vast(ContourSet& set, const TidyOptions& options = {});
 
 /// Whether a contour is nothing but a path back along itself: `tidy` would leave nothing of it.
 bool is_only_spikes(const Contour& contour, double spike_tolerance_mm);
@@ -33,6 +33,6 @@ bool is_only_spikes(const Contour& contour, double spike_tolerance_mm);
 /// begin then as begin_alike says, so that the same points are kept however they are stored. Shorter contours keep every
 /// point. O(n log n) for n points of a drawn line, O(n^2) at worst. Throws Error(invalid_input), naming the contour, when
 /// nothing is left of it.
-Tidied tidy(ContourSet& set, const TidyOptions& options = {});
+TidyReport tidy(ContourSet& set, const TidyOptions& options = {});
 
 }  // namespace kontur

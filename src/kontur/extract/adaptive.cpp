@@ -176,12 +176,12 @@ private:
     void doubt_at_starts() {
         for (const Vec3& index : to_index(grid_, starts_)) {
             const Index3 cell = coarse_.cell_at(index);
-            const auto found = numbers_.find(key(cell));
-            if (!coarse_.is_cell(cell) || found == numbers_.end()) continue;
+            const auto entry = numbers_.find(key(cell));
+            if (!coarse_.is_cell(cell) || entry == numbers_.end()) continue;
             Vec3 fraction;
             for (int axis = 0; axis < 3; ++axis)
                 fraction[axis] = index[axis] / static_cast<double>(coarse_.stride()[axis]) - static_cast<double>(cell[axis]);
-            BandCell& band = band_[found->second];
+            BandCell& band = band_[entry->second];
             band.error_mm = std::max(band.error_mm, std::abs(cubics_.interpolate_at(cell, fraction)));
         }
         spread_errors();
@@ -202,19 +202,19 @@ private:
 
     /// Computes the values in doubt that have not been; true if there were any.
     bool resolve_doubts() {
-        std::vector<std::vector<Index3>> found(band_.size());
+        std::vector<std::vector<Index3>> doubtful_nodes(band_.size());
         for_each_cell([&](std::size_t b) {
             BandCell& band = band_[b];
             if (band.doubt_mm <= band.resolved_mm) return;
             band.resolved_mm = band.doubt_mm;
             for_each_point(band.cell, [&](const Index3& p) {
-                if (!is_node(p) && std::abs(fine_.value(p)) < band.doubt_mm) found[b].push_back(p);
+                if (!is_node(p) && std::abs(fine_.value(p)) < band.doubt_mm) doubtful_nodes[b].push_back(p);
             });
         });
         std::vector<Index3> points;
         std::vector<std::size_t> cells;
         for (std::size_t b = 0; b < band_.size(); ++b)
-            for (const Index3& p : found[b]) {
+            for (const Index3& p : doubtful_nodes[b]) {
                 if (!fine_.mark_point(p)) continue;
                 points.push_back(p);
                 cells.push_back(b);
@@ -292,7 +292,7 @@ private:
                 for (std::int64_t i = -1; i <= 1; ++i) {
                     const Index3 c{cell.i + i, cell.j + j, cell.k + k};
                     if (!coarse_.is_cell(c)) continue;
-                    if (const auto found = numbers_.find(key(c)); found != numbers_.end()) visit(band_[found->second]);
+                    if (const auto entry = numbers_.find(key(c)); entry != numbers_.end()) visit(band_[entry->second]);
                 }
     }
 

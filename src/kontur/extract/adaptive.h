@@ -9,13 +9,13 @@
 
 namespace kontur {
 
-/// What track_surface finds, from about a quarter of the function values. The surface is followed first on a coarse lattice
-/// (about every fourth voxel, more or fewer along axes with another spacing); in the coarse cells that it passes, values are
-/// interpolated by cubics and computed where that leaves the sign in doubt. How large a value may be and still be in doubt
-/// follows from the interpolation's errors where f is known: at the starts, where it is 0, and at every value computed. Then
-/// the surface is tracked on the full lattice as track_surface does; values that are still missing are computed. So no sheet
-/// or bubble away from the starts is found, no component that a start touches is lost, and masks differ from track_surface's
-/// in single voxels within a fraction of a percent of a voxel of the surface. Objects of few voxels are left to
+/// What track_surface finds, from about a quarter of the function values. The surface is followed first on a coarse
+/// lattice: about every fourth voxel, more or fewer along axes with another spacing. In the coarse cells on the
+/// surface, values are interpolated by cubics, and computed where the sign is in doubt. The limit of doubt follows from
+/// the interpolation's errors where f is known: at the starts, where it is 0, and at every computed value. Then the
+/// surface is tracked on the full lattice as track_surface does, and missing values are computed. So no sheet or bubble
+/// away from the starts is found, and no component that a start touches is lost. Masks differ from track_surface's in
+/// single voxels within a fraction of a percent of a voxel of the surface. Objects of few voxels are left to
 /// track_surface.
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
                                         const Work& work = {});
@@ -28,8 +28,8 @@ enum class Doubts { resolved, left };
 SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts,
                                         const Work& work = {}, Doubts doubts = Doubts::resolved);
 
-/// About how many of the grid's voxels a surface through the starts passes, as if it were an ellipsoid that fills their box
-/// as far as that lies in the grid; more where the starts show that there are many objects.
+/// About how many of the grid's voxels the surface through the starts passes. It is taken as an ellipsoid that fills the
+/// part of their box within the grid, or as several where the starts show many objects.
 std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> starts);
 
 }  // namespace kontur

@@ -88,12 +88,12 @@ std::vector<Loop> find_loops(unsigned inside) {
 /// Triangles of the polygon loop[first..last] such that no diagonal lies in a face of the cell.
 std::optional<std::vector<CellTriangle>> triangulate(const Loop& loop, std::size_t first, std::size_t last) {
     if (last - first < 2) return std::vector<CellTriangle>{};
-    const auto allowed = [&](std::size_t a, std::size_t b) {
+    const auto is_allowed = [&](std::size_t a, std::size_t b) {
         const bool side = b - a == 1 || (a == 0 && b + 1 == loop.size());
         return side || !share_a_face(loop[a], loop[b]);
     };
     for (std::size_t apex = first + 1; apex < last; ++apex) {
-        if (!allowed(first, apex) || !allowed(apex, last)) continue;
+        if (!is_allowed(first, apex) || !is_allowed(apex, last)) continue;
         auto left = triangulate(loop, first, apex), right = triangulate(loop, apex, last);
         if (!left || !right) continue;
         left->insert(left->end(), right->begin(), right->end());

@@ -100,24 +100,24 @@ private:
     void want(const Index3& point) {
         if (!std::isnan(lattice_.value(point))) return;
         lattice_.set_value(point, kPending);
-        wanted_.push_back(point);
+        queue_.push_back(point);
     }
 
     void evaluate_wanted() {
         std::vector<Vec3> points;
-        points.reserve(wanted_.size());
-        for (const Index3& p : wanted_) points.push_back(lattice_.position_mm(p));
+        points.reserve(queue_.size());
+        for (const Index3& p : queue_) points.push_back(lattice_.position_mm(p));
         std::vector<double> values(points.size());
         evaluate_(points, values);
-        for (std::size_t i = 0; i < wanted_.size(); ++i) lattice_.set_value(wanted_[i], values[i]);
-        evaluations_ += static_cast<std::int64_t>(wanted_.size());
-        wanted_.clear();
+        for (std::size_t i = 0; i < queue_.size(); ++i) lattice_.set_value(queue_[i], values[i]);
+        evaluations_ += static_cast<std::int64_t>(queue_.size());
+        queue_.clear();
     }
 
     CoarseLattice& lattice_;
     const EvaluatePoints& evaluate_;
     double bulge_mm_;
-    std::vector<Index3> front_, cells_, wanted_;
+    std::vector<Index3> front_, cells_, queue_;
     std::int64_t evaluations_ = 0;
 };
 

@@ -95,19 +95,19 @@ Entries entries(const ImplicitFunction& function, const Grid& grid, std::span<co
     if (!lattice) return {};
     const SurfaceLattice surface = track_surface_adaptively(function, *lattice, starts, work);
 
-    Entries found;
-    found.evaluations = surface.evaluations;
+    Entries entries;
+    entries.evaluations = surface.evaluations;
     const Border border(grid, kBorderSpacings * spacing_mm);
     for (const Vec3& p : cut_points(surface))
-        if (border.contains(p)) found.points.push_back(p);
+        if (border.contains(p)) entries.points.push_back(p);
     // A grid that the surface does not cut lies wholly on one side of it; one so small that it falls between the lattice's
     // points may be cut all the same.
     for (int n = 0; n < 8; ++n) {
         const Vec3 corner =
             grid.center_mm(n & 1 ? grid.size.i - 1 : 0, n & 2 ? grid.size.j - 1 : 0, n & 4 ? grid.size.k - 1 : 0);
-        if (encloses_near(surface, corner)) found.points.push_back(corner);
+        if (encloses_near(surface, corner)) entries.points.push_back(corner);
     }
-    return found;
+    return entries;
 }
 
 }  // namespace kontur

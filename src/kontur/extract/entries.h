@@ -16,11 +16,11 @@ struct Entries {
     std::int64_t evaluations = 0;  ///< function values that finding them took
 };
 
-/// Where the surface through `starts` (mm) comes into the grid across its border, and the grid's corners that may lie inside
-/// of it. A search that begins at starts within a grid misses the parts that touch none of these. The surface is followed
-/// outside of the grid too, on a lattice of cubes as wide as the grid's smallest spacing, but at least 1 / 250 of the
-/// starts' box, so that the cost is bounded however small the voxels are. No start outside of the grid, or none on any side
-/// of which the grid lies: nothing, at no cost.
+/// The places where the surface through `starts` (mm) enters the grid across its border, and the grid's corners that may
+/// lie inside of it. A search from the starts within a grid misses the parts that touch none of these. Outside, the
+/// surface is followed on a lattice of cubes as wide as the grid's smallest spacing, and at least 1 / 250 of the starts'
+/// box. This bounds the cost. Nothing, at no cost, without starts outside of the grid, or where the grid lies on no side
+/// of them.
 Entries entries(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, const Work& work = {});
 
 }  // namespace kontur

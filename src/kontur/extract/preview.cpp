@@ -70,8 +70,8 @@ std::optional<LatticeSurface> preview_with_lattice(const ImplicitFunction& funct
 
 TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options,
                              const Work& work) {
-    std::optional<LatticeSurface> found = preview_with_lattice(function, starts, options, work);
-    return found ? std::move(found->mesh) : TriangleMesh{};
+    std::optional<LatticeSurface> surface = preview_with_lattice(function, starts, options, work);
+    return surface ? std::move(surface->mesh) : TriangleMesh{};
 }
 
 }  // namespace kontur

@@ -100,9 +100,9 @@ std::vector<std::vector<Vec3>> SurfaceBand::cut(const Plane& plane) const {
             points.push_back(point);
         }
     }
-    std::vector<double> known(points.size());
-    function_.values(points, known, {.threads = threads_});
-    for (std::size_t i = 0; i < nodes.size(); ++i) values[nodes[i]] = known[i];
+    std::vector<double> values_at(points.size());
+    function_.values(points, values_at, {.threads = threads_});
+    for (std::size_t i = 0; i < nodes.size(); ++i) values[nodes[i]] = values_at[i];
     fill_unknown(*lattice, options_.spacing_mm, values);
 
     std::vector<std::vector<Vec3>> lines;

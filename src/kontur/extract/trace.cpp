@@ -72,7 +72,7 @@ std::optional<BoxCorners> object_region(const Mask& mask) {
 
 bool is_frame(const Plane& plane) {
     constexpr double kTolerance = 1e-4;  // files round the axes to a few decimals
-    const auto holds = [](double value, double expected) { return std::abs(value - expected) <= kTolerance; };
+    const auto holds = [](double value, double target) { return std::abs(value - target) <= kTolerance; };
     return is_finite(plane.origin) && holds(norm(plane.u), 1) && holds(norm(plane.v), 1) && holds(norm(plane.normal), 1) &&
            holds(dot(plane.u, plane.v), 0) && holds(dot(plane.u, plane.normal), 0) && holds(dot(plane.v, plane.normal), 0);
 }
@@ -120,10 +120,10 @@ std::vector<std::array<double, 2>> simplified(const std::vector<std::array<doubl
         open.push_back({begin, split});
         open.push_back({split, end});
     }
-    std::vector<std::array<double, 2>> kept;
+    std::vector<std::array<double, 2>> corners;
     for (std::size_t i = 0; i < count; ++i)
-        if (keep[i]) kept.push_back(points[i]);
-    return kept;
+        if (keep[i]) corners.push_back(points[i]);
+    return corners;
 }
 
 std::vector<double> sample_levels(const MaskSampler& sampler, const IsolineLattice& lattice, const Work& work) {

@@ -19,11 +19,11 @@ struct TraceOptions {
     double min_area_mm2 = 0;
 };
 
-/// Cuts a mask by planes of any orientation into closed contours, plane by plane in the given order: the 0.5 level of the
-/// mask's trilinear interpolation, which is 0 outside of the grid, so that an object cut off by the grid ends half a voxel
-/// beyond its outermost voxel centres. Points lie on their plane within rounding. Contours run counter-clockwise about the
-/// plane's normal, holes clockwise. A plane that misses the object gives no contour. Throws Error(invalid_input), naming the
-/// plane (counted from 1), when its axes are not orthonormal, and for options or a mask that make no sense.
+/// Cuts a mask by planes of any orientation into closed contours, plane by plane in the given order. They are the 0.5 level
+/// of the mask's trilinear interpolation. Outside of the grid the mask is 0, so an object that the grid cuts off ends half a
+/// voxel beyond its outermost voxel centres. Points lie on their plane within rounding. Contours run counter-clockwise about
+/// the plane's normal, holes clockwise. A plane that misses the object gives no contour. Throws Error(invalid_input), naming
+/// the plane (counted from 1), when its axes are not orthonormal, and for options or a mask that make no sense.
 ContourSet trace(const Mask& mask, std::span<const Plane> planes, const TraceOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

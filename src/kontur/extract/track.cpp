@@ -54,7 +54,7 @@ std::vector<Index3> cells_around(const std::vector<Index3>& centers, const Index
 
 class Tracker {
 public:
-    Tracker(Lattice known, const EvaluatePoints& evaluate) : evaluate_(evaluate), surface_{std::move(known), {}, 0} {}
+    Tracker(Lattice lattice, const EvaluatePoints& evaluate) : evaluate_(evaluate), surface_{std::move(lattice), {}, 0} {}
 
     struct MixedCell {
         Index3 cell;
@@ -122,21 +122,21 @@ public:
 
 private:
     void evaluate_corners(const std::vector<Index3>& cells) {
-        std::vector<Index3> wanted;
+        std::vector<Index3> nodes;
         for (const Index3& c : cells) {
             const std::array<double, 8> values = surface_.lattice.corners(c);
             for (int n = 0; n < 8; ++n) {
                 if (!std::isnan(values[static_cast<std::size_t>(n)])) continue;
-                wanted.push_back(Lattice::corner(c, n));
-                surface_.lattice.set_value(wanted.back(), kPending);
+                nodes.push_back(Lattice::corner(c, n));
+                surface_.lattice.set_value(nodes.back(), kPending);
             }
         }
         std::vector<Vec3> points;
-        points.reserve(wanted.size());
-        for (const Index3& p : wanted) points.push_back(surface_.lattice.grid().center_mm(p.i, p.j, p.k));
+        points.reserve(nodes.size());
+        for (const Index3& p : nodes) points.push_back(surface_.lattice.grid().center_mm(p.i, p.j, p.k));
         std::vector<double> values(points.size());
         evaluate_(points, values);
-        for (std::size_t i = 0; i < wanted.size(); ++i) surface_.lattice.set_value(wanted[i], values[i]);
+        for (std::size_t i = 0; i < nodes.size(); ++i) surface_.lattice.set_value(nodes[i], values[i]);
         surface_.evaluations += static_cast<std::int64_t>(points.size());
     }
 
@@ -183,9 +183,10 @@ Index3 farthest(const Grid& grid) {
 
 }  // namespace
 
-SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std::span<const Vec3> starts, const Work& work) {
-    const Grid grid = known.grid();
-    Tracker tracker(std::move(known), evaluate);
+SurfaceLattice track_surface(Lattice lattice, const EvaluatePoints& evaluate, std::span<const Vec3> starts,
+                             const Work& work) {
+    const Grid grid = lattice.grid();
+    Tracker tracker(std::move(lattice), evaluate);
     // The start's own cell can miss the surface by smoothing or rounding, so its neighbours are looked at as well; on a
     // contour they are cells that the walk visits anyway.
     const std::vector<Index3> start_cells = cells_at(grid, starts);

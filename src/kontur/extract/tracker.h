@@ -26,7 +26,8 @@ inline Index3 cell_of(const Vec3& index) {
 using EvaluatePoints = std::function<void(std::span<const Vec3> points_mm, std::span<double> values)>;
 
 /// track_surface on a lattice with some values already known; only the others are evaluated and counted.
-SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std::span<const Vec3> starts, const Work& work);
+SurfaceLattice track_surface(Lattice lattice, const EvaluatePoints& evaluate, std::span<const Vec3> starts,
+                             const Work& work);
 
 /// Where linear interpolation has the surface cut the edges of its lattice, in mm; not the edges that leave the grid.
 std::vector<Vec3> cut_points(const SurfaceLattice& surface);

@@ -25,8 +25,8 @@ void mark_cuts(const SurfaceLattice& surface, const Work& work, Mask& mask) {
 /// Inside is what lies behind an odd number of marks.
 void fill_row(std::uint8_t* at, std::uint8_t* end) {
     const auto next_mark = [&](std::uint8_t* from) {
-        void* found = from < end ? std::memchr(from, 1, static_cast<std::size_t>(end - from)) : nullptr;
-        return found ? static_cast<std::uint8_t*>(found) : end;
+        void* first = from < end ? std::memchr(from, 1, static_cast<std::size_t>(end - from)) : nullptr;
+        return first ? static_cast<std::uint8_t*>(first) : end;
     };
     while ((at = next_mark(at)) < end) {
         std::uint8_t* const out = next_mark(at + 1);

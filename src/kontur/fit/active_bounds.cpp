@@ -19,8 +19,8 @@ constexpr double kCounts = 0.03;
 
 }  // namespace
 
-ActiveBounds::ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& drawn)
-    : bounds_(bounds), drawn_(drawn), activity_(bounds.size(), Activity::no) {
+ActiveBounds::ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& points)
+    : bounds_(bounds), points_(points), activity_(bounds.size(), Activity::no) {
     for (std::size_t b = 0; b < bounds.size(); ++b) {
         positions_.push_back(bounds[b].position);
         if (bounds[b].least_mm == bounds[b].most_mm) activity_[b] = Activity::always;
@@ -41,7 +41,7 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
     std::vector<double> values(bounds_.size());
     function.values(positions_, values, work);
     const bool are_first = !holds_any();
-    std::vector<Left> left;
+    std::vector<Violation> violations;
     bool counts = false;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
         if (activity_[i] == Activity::always) continue;
@@ -52,31 +52,33 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
             const bool has_its_side =
                 bounds_[i].by_side && values[i] * (above > below ? bounds_[i].most_mm : bounds_[i].least_mm) > 0;
             if (!has_its_side && excess > std::max(tolerance_mm, kCounts * noise))
-                left.push_back({excess, i, above > below ? Activity::at_most : Activity::at_least});
+                violations.push_back({excess, i, above > below ? Activity::at_most : Activity::at_least});
         } else if (const double excess = activity_[i] == Activity::at_most ? above : below; excess <= 0) {
             activity_[i] = Activity::no;
             counts = counts || excess < -std::max(tolerance_mm, held_counts * noise);
         }
     }
-    counts = counts || !left.empty();
-    if (are_first && !left.empty()) left = farthest_off(std::move(left));
-    for (const Left& one : left) activity_[one.bound] = one.limit;
+    counts = counts || !violations.empty();
+    if (are_first && !violations.empty()) violations = farthest_off(std::move(violations));
+    for (const Violation& one : violations) activity_[one.bound] = one.limit;
     return counts;
 }
 
 /// Those that are farther off than any other in their surroundings. Held, they mostly keep f there; holding all at first
 /// takes many solves to let most of them go again.
-std::vector<ActiveBounds::Left> ActiveBounds::farthest_off(std::vector<Left> left) const {
-    std::sort(left.begin(), left.end(),
-              [](const Left& a, const Left& b) { return std::tie(b.excess_mm, a.bound) < std::tie(a.excess_mm, b.bound); });
-    std::vector<Vec3> drawn(drawn_.size());
-    std::transform(drawn_.begin(), drawn_.end(), drawn.begin(), [](const BoundaryPoint& p) { return p.position; });
-    const PointTree lines(std::move(drawn));
-    std::vector<Left> farthest;
-    for (const Left& one : left) {
+std::vector<ActiveBounds::Violation> ActiveBounds::farthest_off(std::vector<Violation> violations) const {
+    std::sort(violations.begin(), violations.end(), [](const Violation& a, const Violation& b) {
+        return std::tie(b.excess_mm, a.bound) < std::tie(a.excess_mm, b.bound);
+    });
+    std::vector<Vec3> positions(points_.size());
+    std::transform(points_.begin(), points_.end(), positions.begin(), [](const BoundaryPoint& p) { return p.position; });
+    const PointTree lines(std::move(positions));
+    std::vector<Violation> farthest;
+    for (const Violation& one : violations) {
         const Vec3& place = positions_[one.bound];
         const double around = lines.distance_to(place);
-        if (std::ranges::none_of(farthest, [&](const Left& f) { return distance(positions_[f.bound], place) < around; }))
+        if (std::ranges::none_of(farthest,
+                                 [&](const Violation& f) { return distance(positions_[f.bound], place) < around; }))
             farthest.push_back(one);
     }
     return farthest;

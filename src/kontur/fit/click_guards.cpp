@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kDirections = 48;
 constexpr double kRadii[] = {1.5, 2.5};  // of the click's distance from the lines, which turn the surface so far around
-constexpr double kMoved = 1;             // of the same: what the surface is farther away is not looked at
 constexpr double kNearLine = 0.25;       // of the same: there the line holds the surface
 constexpr double kNoise = 0.05;          // of the same
 constexpr int kSteps = 4;
@@ -38,19 +37,19 @@ std::vector<Vec3> surface_around(const Vec3& click, double from_lines, const Imp
             places[i] -= values[i] / std::max(dot(gradients[i], gradients[i]), 0.1) * gradients[i];
     }
     function.values(places, values, work);
-    std::vector<Vec3> reached;
+    std::vector<Vec3> bridges;
     for (std::size_t i = 0; i < places.size(); ++i)
-        if (std::abs(values[i]) < kReached * from_lines && distance(places[i], starts[i]) < kMoved * from_lines)
-            reached.push_back(places[i]);
-    return reached;
+        if (std::abs(values[i]) < kReached * from_lines && distance(places[i], starts[i]) < from_lines)
+            bridges.push_back(places[i]);
+    return bridges;
 }
 
 }  // namespace
 
 std::vector<Bound> click_guards(const PreparedContours& contours, const ImplicitFunction& without_clicks, const Work& work) {
-    std::vector<Vec3> drawn;
-    for (const BoundaryPoint& p : contours.points) drawn.push_back(p.position);
-    const PointTree lines(std::move(drawn));
+    std::vector<Vec3> positions;
+    for (const BoundaryPoint& p : contours.points) positions.push_back(p.position);
+    const PointTree lines(std::move(positions));
     std::vector<Bound> guards;
     for (const Bound& click : contours.bounds) {
         if (!is_click(click)) continue;
@@ -60,8 +59,8 @@ std::vector<Bound> click_guards(const PreparedContours& contours, const Implicit
         const double from_lines = lines.distance_to(click.position);
         for (const Vec3& place : surface_around(click.position, from_lines, without_clicks, work)) {
             if (lines.distance_to(place) < kNearLine * from_lines) continue;
-            Bound& guard = guards.emplace_back(
-                Bound{.position = place, .noise_mm = kNoise * from_lines, .extent = click.extent});
+            Bound& guard =
+                guards.emplace_back(Bound{.position = place, .noise_mm = kNoise * from_lines, .extent = click.extent});
             (is_outside ? guard.most_mm : guard.least_mm) = 0;
         }
     }

@@ -9,10 +9,10 @@
 
 namespace kontur {
 
-/// A click that moves the surface turns it about the drawn lines: beyond them it would move the other way. Who clicks
-/// "outside" asks for less of the object, nowhere for more. So places of the surface around such a click, as it runs without
-/// clicks, are not to come inside by an exterior one, nor outside by an interior one. None for clicks that have their side
-/// without.
+/// A click that moves the surface turns it about the drawn lines, so beyond them it would move the other way. But a click
+/// "outside" asks for less of the object, nowhere for more. The guards are places on the surface that runs without clicks,
+/// around such a click. An exterior click may bring none of them inside, an interior one none outside. None for clicks that
+/// are on their side anyway.
 std::vector<Bound> click_guards(const PreparedContours& contours, const ImplicitFunction& without_clicks, const Work& work);
 
 }  // namespace kontur

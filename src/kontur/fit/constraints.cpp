@@ -56,9 +56,9 @@ private:
         return {along(p.x), along(p.y), along(p.z)};
     }
 
-    bool repeats_one_of(Cells::const_iterator found, const Vec3& p, double apart) const {
-        if (found == cells_.end()) return false;
-        for (const Vec3& q : found->second)
+    bool repeats_one_of(Cells::const_iterator cell, const Vec3& p, double apart) const {
+        if (cell == cells_.end()) return false;
+        for (const Vec3& q : cell->second)
             if (p == q || distance(p, q) < apart) return true;
         return false;
     }
@@ -121,31 +121,31 @@ void append_spread(std::span<const BoundaryPoint> points, const std::vector<std:
         line.positions.push_back(points[i].position);
         apart_mm.push_back(points[i].extent * options.normal_spacing_mm);
     }
-    const std::vector<bool> taken = spread_along(line, apart_mm, 1);
+    const std::vector<bool> is_station = spread_along(line, apart_mm, 1);
     const std::size_t first = stations.size();
-    double passed = 0, before_first = 0;  // points since the last station
+    double between = 0, before_first = 0;  // points since the last station
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (!taken[i]) {
-            ++passed;
+        if (!is_station[i]) {
+            ++between;
             continue;
         }
-        if (stations.size() == first) before_first = passed;
-        else stations.back().stands_for += passed / 4;
-        stations.push_back({candidates[i], 0.5 + (stations.size() == first ? 0 : passed / 4)});
-        passed = 0;
+        if (stations.size() == first) before_first = between;
+        else stations.back().stands_for += between / 4;
+        stations.push_back({candidates[i], 0.5 + (stations.size() == first ? 0 : between / 4)});
+        between = 0;
     }
-    const double around = passed + before_first;
-    stations.back().stands_for += line.is_ring ? around / 4 : passed / 2;
+    const double around = between + before_first;
+    stations.back().stands_for += line.is_ring ? around / 4 : between / 2;
     stations[first].stands_for += line.is_ring ? around / 4 : before_first / 2;
 }
 
-std::vector<Station> choose_stations(std::span<const BoundaryPoint> points, const std::vector<bool>& kept,
+std::vector<Station> choose_stations(std::span<const BoundaryPoint> points, const std::vector<bool>& is_placed,
                                      const PlaceOptions& options) {
     std::vector<Station> stations;
     for (const Stretch& stretch : stretches(points)) {
         std::vector<std::size_t> candidates;
         for (std::size_t i = stretch.begin; i < stretch.end; ++i)
-            if (kept[i] && points[i].inplane_normal != Vec3{}) candidates.push_back(i);
+            if (is_placed[i] && points[i].inplane_normal != Vec3{}) candidates.push_back(i);
         if (options.both_sides && !candidates.empty()) append_spread(points, candidates, options, stations);
         else
             for (const std::size_t i : candidates) stations.push_back({i});
@@ -207,9 +207,10 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
         return true;
     };
 
-    std::vector<bool> kept(points.size());
+    std::vector<bool> is_placed(points.size());
     for (const std::size_t i : order_of_keeping(points, options))
-        kept[i] = place({.position = points[i].position, .value = 0, .trust = points[i].trust, .extent = points[i].extent});
+        is_placed[i] =
+            place({.position = points[i].position, .value = 0, .trust = points[i].trust, .extent = points[i].extent});
     const auto place_beside = [&](const Station& station, double side, double room_mm) {
         const BoundaryPoint& point = points[station.point];
         const double offset = std::min(point.extent * options.normal_offset_mm, room_mm / 2);
@@ -219,7 +220,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
                .noise_mm = offset * options.slope_noise / std::sqrt(station.stands_for),
                .extent = point.extent});
     };
-    for (const Station& station : choose_stations(points, kept, options)) {
+    for (const Station& station : choose_stations(points, is_placed, options)) {
         place_beside(station, 1, points[station.point].gap_mm);
         if (options.both_sides) place_beside(station, -1, points[station.point].depth_mm);
     }

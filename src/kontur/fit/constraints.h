@@ -38,24 +38,24 @@ void check_place_options(const PlaceOptions& options);
 /// Throws Error(invalid_input) unless there is one slope in (0, 1] for each of the points.
 void check_slopes(std::span<const double> slopes, std::size_t points);
 
-/// Boundary constraints f = 0 at all points and normal constraints beside them, f = -d s at the distance d outside along the
-/// in-plane normal; then the single points. The distance is the offset, but no more than half of the point's gap, so that in
-/// a narrow cleft each wall keeps its side. `slopes` holds s in (0, 1], one per point: how fast f falls along the in-plane
-/// normal, which for a distance-like f is the cosine of the surface's tilt against the contour's plane. All ones is the
-/// paper's choice.
+/// Boundary constraints f = 0 at all points, and beside them normal constraints: f = -d s at the distance d
+/// outside along the in-plane normal. Then the single points. d is the offset, but no more than half of the
+/// point's gap, so that in a narrow cleft each wall keeps its side. `slopes` holds s in (0, 1], one per
+/// point: how fast f falls along the in-plane normal. For a distance-like f this is the cosine of the
+/// surface's tilt against the contour's plane. All ones is the paper's choice.
 ///
-/// A normal constraint on the outside alone pulls the surface inwards wherever f does not reach it exactly. With
-/// `both_sides` about every second point has two, f = +d s at the distance d inside (no more than half of the depth) as
-/// well: what they miss cancels at the line, and the constraints are as many. Which points these are the line says, not
-/// where it begins (spread_along): none are neighbours, or nearer to each other than the spacing, and each stands for half
-/// of the points on the way to the next one, with the less noise the more these are. Offset, spacing and merge distance are
-/// as much smaller as a point's extent.
+/// A normal constraint on the outside alone pulls the surface inwards wherever f does not reach it exactly.
+/// With `both_sides` about every second point has two: also f = +d s at the distance d inside, no more than
+/// half of the depth. What they miss cancels at the line, and the number of constraints stays. The choice
+/// of points does not depend on where the line begins (spread_along). None are neighbours, or nearer to
+/// each other than the spacing. Each stands for half of the points on the way to the next one; the more
+/// there are, the less is its noise. Offset, spacing and merge distance are as much smaller as a point's
+/// extent.
 ///
-/// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002), so a constraint within the merge
-/// distance of another one is dropped: boundary constraints come first and win, among them those that stand for more of
-/// their line. Throws Error(invalid_input) as the two
-/// checks do, for coordinates and values that are not finite, a gap that is not above 0, and a trust that is not finite and
-/// above 0.
+/// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002). So a constraint within
+/// the merge distance of another one is dropped. Boundary constraints come first and win, among them those
+/// that stand for more of their line. Throws Error(invalid_input) as the two checks do, and for coordinates
+/// and values that are not finite, a gap that is not above 0, and a trust that is not finite and above 0.
 PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,
                                     std::span<const PointConstraint> single_points, const PlaceOptions& options = {});
 

@@ -46,15 +46,15 @@ std::vector<double> read_slopes(const ImplicitFunction& function, const std::vec
 }
 
 /// Whatever order they were drawn in, so that sums and choices among neighbours that are equally near are the same.
-PlacedConstraints in_order_of_place(PlacedConstraints placed) {
-    ConstraintSet& set = placed.constraints;
+PlacedConstraints in_order_of_place(PlacedConstraints placement) {
+    ConstraintSet& set = placement.constraints;
     std::vector<std::size_t> order(set.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto key = [&](std::size_t i) { return std::tuple(set.centers[i].x, set.centers[i].y, set.centers[i].z); };
     std::ranges::sort(order, {}, key);
     set = {pick(set.centers, order), pick(set.values, order), pick(set.trust, order), pick(set.noise_mm, order),
            pick(set.extents, order)};
-    return placed;
+    return placement;
 }
 
 double mean_change_degrees(const std::vector<double>& before, const std::vector<double>& after) {
@@ -86,18 +86,18 @@ public:
           bounds_(contours.bounds, contours.points) {}
 
     FittedFunction run() {
-        const std::vector<std::size_t> kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
+        const std::vector<std::size_t> part = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
         result_.slopes = options_.start_slopes;
         result_.slopes.resize(all_.size(), 1.0);
         if (options_.normals == Normals::surface && options_.rounds > 0) {
             find_slopes();
-            settle_bounds(kept.size());
+            settle_bounds(part.size());
         } else {
             bounds_.hold(options_.start_bounds);
         }
         progress_ = {progress_.end, 1.0};
         for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves;)
-            other_bounds = solve_part(kept, 1, kCountsHeld, ++result_.full_solves == options_.most_solves);
+            other_bounds = solve_part(part, 1, kCountsHeld, ++result_.full_solves == options_.most_solves);
         return std::move(result_);
     }
 
@@ -124,14 +124,14 @@ private:
             result_.tilt_change_degrees = mean_change_degrees(slopes, next);
             slopes = std::move(next);
         }
-        const std::vector<double> shown = read_slopes(result_.function, all_, options_, work_);
-        result_.slopes = believed_slopes(all_, part, shown, place_.normal_offset_mm);
+        const std::vector<double> readings = read_slopes(result_.function, all_, options_, work_);
+        result_.slopes = believed_slopes(all_, part, readings, place_.normal_offset_mm);
     }
 
     /// Finds which bounds a fit of so many points leans on, from half as many at most: that fit is repeated less often then.
-    void settle_bounds(std::size_t kept) {
+    void settle_bounds(std::size_t part_size) {
         if (!bounds_.holds_any() || options_.most_solves == 1) return;
-        const std::vector<std::size_t> part = thin(all_, std::clamp(kept / 2, std::size_t{1}, options_.tilt_points));
+        const std::vector<std::size_t> part = thin(all_, std::clamp(part_size / 2, std::size_t{1}, options_.tilt_points));
         for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance, kCountsSettling);) ++solve;
     }
 
@@ -156,19 +156,19 @@ private:
         bounds_.append_to(single_points);
         result_.bounded = single_points.size();
         result_.active_bounds = single_points;
-        PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
-        solve_placed(placing.both_sides ? in_order_of_place(std::move(placed)) : placed, solving);
+        PlacedConstraints placement = place_constraints(points, slopes, single_points, placing);
+        solve_placed(placing.both_sides ? in_order_of_place(std::move(placement)) : placement, solving);
     }
 
     /// With the screened kernel in the ball of what was drawn unless the options have one.
-    void solve_placed(const PlacedConstraints& placed, SolveOptions solving) {
+    void solve_placed(const PlacedConstraints& placement, SolveOptions solving) {
         if (solving.kernel == Kernel::screened && !solving.ball) solving.ball = ball_;
-        Solution solution = solve(placed.constraints, solving, work_of_stretch(), &previous_);
+        Solution solution = solve(placement.constraints, solving, work_of_stretch(), &previous_);
         result_.function = std::move(solution.function);
         result_.report = std::move(solution.report);
         result_.iterations += result_.report.iterations;
-        result_.merged = placed.merged;
-        result_.constraints = placed.constraints.size();
+        result_.merged = placement.merged;
+        result_.constraints = placement.constraints.size();
         ++result_.solves;
     }
 
@@ -252,14 +252,14 @@ PlaceOptions place_options(const FitOptions& options) {
             .merge_distance_mm = options.merge_distance_mm.value()};
 }
 
-FittedFunction fit(const PreparedContours& contours, const FitOptions& given, const Work& work) {
-    check_fit_options(given, contours.points.size());
-    const FitOptions options = resolved(given, contours.ball.diameter());
+FittedFunction fit(const PreparedContours& contours, const FitOptions& given_options, const Work& work) {
+    check_fit_options(given_options, contours.points.size());
+    const FitOptions options = resolved(given_options, contours.ball.diameter());
     const std::vector<Bound> guards = guards_of(contours, options, work);
     if (guards.empty()) return Solves(contours, options, work).run();
-    PreparedContours guarded = contours;
-    guarded.bounds.insert(guarded.bounds.end(), guards.begin(), guards.end());
-    return Solves(guarded, options, work).run();
+    PreparedContours with_guards = contours;
+    with_guards.bounds.insert(with_guards.bounds.end(), guards.begin(), guards.end());
+    return Solves(with_guards, options, work).run();
 }
 
 }  // namespace kontur

@@ -59,20 +59,20 @@ struct FittedFunction {
 /// given.
 void check_fit_options(const FitOptions& options, std::size_t points);
 
-/// Fits the implicit function to prepared contours. A contour fixes only the in-plane part of the surface's direction;
-/// f(c + d n_inplane) = -d, which the paper prescribes, is wrong by the cosine of the tilt, and where contours of
-/// different planes cross, these errors contradict each other. With surface normals the tilt is read from the fitted
-/// gradient at the contour's points and the prescribed values are corrected, f(c + d n_inplane) = -d cos(tilt); the fit
-/// is repeated, two rounds by default. The tilt varies slowly along a contour, so these rounds need only a part of the
-/// points and cost less than the one fit of all points that follows. To first order that is the normal constraint of the
-/// true 3D normal, but only the contour's own direction is prescribed: the tilt itself stays free, so jagged contours cannot
-/// amplify it from round to round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start
-/// contradicts itself. A tilt counts as far as the drawn lines are smooth over the distance that it is read from
+/// Fits the implicit function to prepared contours. A contour fixes only the in-plane part of the surface's
+/// direction. The paper prescribes f(c + d n_inplane) = -d, which is wrong by the cosine of the tilt. Where
+/// contours of different planes cross, these errors contradict each other. With surface normals the tilt is
+/// read from the fitted gradient at the contour's points. The prescribed values become f(c + d n_inplane) = -d
+/// cos(tilt), and the fit is repeated, two rounds by default. The tilt varies slowly along a contour, so these
+/// rounds need only a part of the points. To first order that is the normal constraint of the true 3D normal.
+/// But only the contour's own direction is prescribed: the tilt stays free, so jagged contours cannot amplify
+/// it (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start contradicts
+/// itself. A tilt counts as far as the drawn lines are smooth over the distance that it is read from
 /// (believed_slopes).
 ///
-/// Where f leaves the interval of a bound after a solve, the bound becomes a datum with noise of the next one, as long as f
-/// leans on it. Which bounds these are is settled by solves of a part of the points, so that the fit of all points, which
-/// costs the most, is repeated less often. Interior and exterior points are bounds of the same kind. Throws Error as
+/// Where f leaves the interval of a bound after a solve, the bound becomes a datum with noise of the next one,
+/// as long as f leans on it. Solves of a part of the points settle which bounds these are, since the fit of all
+/// points costs the most. Interior and exterior points are bounds of the same kind. Throws Error as
 /// check_fit_options, place_constraints and solve do.
 FittedFunction fit(const PreparedContours& contours, const FitOptions& options = {}, const Work& work = {});
 

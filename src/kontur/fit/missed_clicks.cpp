@@ -33,14 +33,14 @@ std::vector<std::string> missed_clicks(const ContourSet& set, const ImplicitFunc
     for (std::size_t i = 0; i < set.exterior.size(); ++i)
         if (!(function.value(set.exterior[i]) < 0))
             sentences.push_back(fmt::format("exterior point {} could not be brought outside", i + 1));
-    std::vector<std::size_t> missed;
+    std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < set.surface.size(); ++i)
-        if (!passes_near(function, set.surface[i].position, reach_mm)) missed.push_back(i + 1);
-    if (!missed.empty())
+        if (!passes_near(function, set.surface[i].position, reach_mm)) numbers.push_back(i + 1);
+    if (!numbers.empty())
         sentences.push_back(
             fmt::format("{} of {} surface points could not be reached, the first of them point {}: the surface "
                         "passes more than {:.2g} mm away",
-                        missed.size(), set.surface.size(), missed.front(), reach_mm));
+                        numbers.size(), set.surface.size(), numbers.front(), reach_mm));
     return sentences;
 }
 

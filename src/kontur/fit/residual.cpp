@@ -61,18 +61,18 @@ Residual residual_at(const ImplicitFunction& function, const Places& places, Bor
     Residual result;
     if (places.points.empty()) return result;
     double squares = 0;
-    std::size_t counted = 0;
+    std::size_t count = 0;
     for (std::size_t c = 0, i = 0; c < places.ends.size(); ++c)
         for (; i < places.ends[c]; ++i) {
             const double distance_mm = std::abs(values[i]) / std::max(norm(gradients[i]), 0.1);
             if (distance_mm > borders.counted_mm() && borders.is_inner(c, places.points[i], places.along[i])) continue;
-            ++counted;
+            ++count;
             squares += distance_mm * distance_mm;
             if (distance_mm <= result.max_mm) continue;
             result.max_mm = distance_mm;
             result.worst_contour = c;
         }
-    if (counted > 0) result.rms_mm = std::sqrt(squares / static_cast<double>(counted));
+    if (count > 0) result.rms_mm = std::sqrt(squares / static_cast<double>(count));
     return result;
 }
 

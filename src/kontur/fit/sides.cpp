@@ -22,9 +22,9 @@ namespace {
 /// Points of the closed contours and single points of the surface.
 std::vector<BoundaryPoint> known_points(const ContourSet& set) {
     std::vector<BoundaryPoint> points;
-    for (const Contour& drawn : set.contours) {
-        if (!drawn.closed) continue;
-        const Contour contour = subdivide(drawn, kLeastSegments);
+    for (const Contour& line : set.contours) {
+        if (!line.closed) continue;
+        const Contour contour = subdivide(line, kLeastSegments);
         const std::vector<Vec3> normals = orient(contour).normals;
         for (std::size_t i = 0; i < normals.size(); ++i)
             points.push_back({contour.points[i], normals[i], contour.plane.normal, kNoContour, contour.weight});
@@ -67,11 +67,11 @@ Vec3 middle_of(const ContourSet& set) {
 
 /// How surely the object lies to the left of the contour: from 1 to -1, surely to the right.
 double leftness(const Contour& contour, const std::optional<ImplicitFunction>& coarse, const Vec3& middle) {
-    const std::vector<Vec3> left = left_normals(contour);
+    const std::vector<Vec3> normals = left_normals(contour);
     double sum = 0, total = 0;
     for (std::size_t i = 0; i < contour.points.size(); ++i) {
         const Vec3 inward = coarse ? coarse->gradient(contour.points[i]) : middle - contour.points[i];
-        sum += dot(inward, left[i]);
+        sum += dot(inward, normals[i]);
         total += norm(inward);
     }
     return total > 0 ? sum / total : 0;
@@ -87,16 +87,16 @@ std::vector<FoundSide> find_sides(ContourSet& set) {
         if (contour.closed || contour.inside) continue;
         if (sides.empty()) coarse = coarse_fit(set);
         constexpr double kSure = 0.3;
-        const double left = leftness(contour, coarse, middle_of(set));
-        const Hand hand = left > 0 ? Hand::left : Hand::right;
-        sides.push_back({c, hand, std::abs(left) >= kSure});
+        const double leftward = leftness(contour, coarse, middle_of(set));
+        const Hand hand = leftward > 0 ? Hand::left : Hand::right;
+        sides.push_back({c, hand, std::abs(leftward) >= kSure});
         contour.inside = hand;
     }
     return sides;
 }
 
-Drawing read_drawing(const ContourSet& drawn, FillRule rule) {
-    Drawing drawing(drawn, rule);
+Drawing read_drawing(const ContourSet& set, FillRule rule) {
+    Drawing drawing(set, rule);
     drawing.sides = find_sides(drawing.tidied);
     for (std::string& sentence : sentences(drawing.sides)) drawing.notes.push_back(std::move(sentence));
     return drawing;
@@ -108,7 +108,7 @@ std::vector<std::string> sentences(const std::vector<FoundSide>& sides) {
         for (const Hand inside : {Hand::left, Hand::right}) {
             std::vector<FoundSide> alike;
             std::ranges::copy_if(sides, std::back_inserter(alike),
-                                 [&](const FoundSide& found) { return found.inside == inside && found.is_sure == is_sure; });
+                                 [&](const FoundSide& side) { return side.inside == inside && side.is_sure == is_sure; });
             if (alike.empty()) continue;
             const std::size_t first = alike.front().contour + 1;
             all.push_back(

@@ -14,7 +14,7 @@ namespace kontur {
 std::vector<FoundSide> find_sides(ContourSet& set);
 
 /// What was drawn, with the sides of open contours found. Throws as check_contours.
-Drawing read_drawing(const ContourSet& drawn, FillRule rule = FillRule::even_odd);
+Drawing read_drawing(const ContourSet& set, FillRule rule = FillRule::even_odd);
 
 /// "contour 3 is open; the object was taken to lie on its left": contours are counted from 1. One sentence for all of one
 /// side, and one for those of which it is doubtful.

@@ -64,13 +64,13 @@ std::vector<bool> spread_along(const LinePoints& line, std::span<const double> a
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return turn[a] < turn[b]; });
     Spread spread(line);
-    std::vector<bool> taken(n, false);
+    std::vector<bool> is_chosen(n, false);
     for (const std::size_t i : order) {
         if (spread.is_near(i)) continue;
-        taken[i] = true;
+        is_chosen[i] = true;
         spread.take(i, apart_mm[i], neighbours);
     }
-    return taken;
+    return is_chosen;
 }
 
 }  // namespace kontur

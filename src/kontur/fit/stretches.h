@@ -23,12 +23,12 @@ struct Stretch {
 };
 
 inline std::vector<Stretch> stretches(std::span<const BoundaryPoint> points) {
-    std::vector<Stretch> found;
+    std::vector<Stretch> all;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!follows(points, i)) found.push_back({i, i, points[i].on_ring});
-        found.back().end = i + 1;
+        if (!follows(points, i)) all.push_back({i, i, points[i].on_ring});
+        all.back().end = i + 1;
     }
-    return found;
+    return all;
 }
 
 }  // namespace kontur

@@ -27,11 +27,11 @@ std::size_t single_point_step(const std::vector<BoundaryPoint>& points, std::siz
 
 std::vector<std::size_t> thin(const std::vector<BoundaryPoint>& points, std::size_t most) {
     constexpr double kMostPerShort = 24, kLeastPerShort = 6;
-    std::vector<std::size_t> kept;
+    std::vector<std::size_t> numbers;
     if (points.size() <= most) {
-        kept.resize(points.size());
-        std::iota(kept.begin(), kept.end(), std::size_t{0});
-        return kept;
+        numbers.resize(points.size());
+        std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+        return numbers;
     }
     std::vector<LinePoints> lines;
     std::vector<double> lengths;
@@ -49,11 +49,11 @@ std::vector<std::size_t> thin(const std::vector<BoundaryPoint>& points, std::siz
     for (std::size_t s = 0, single = 0; s < all.size(); ++s) {
         if (points[all[s].begin].contour == kNoContour && single++ % every != 0) continue;
         const std::vector<double> apart(lines[s].positions.size(), std::min(step, lengths[s] / per_short) / kSpreadApart);
-        const std::vector<bool> taken = spread_along(lines[s], apart, 0);
-        for (std::size_t i = 0; i < taken.size(); ++i)
-            if (taken[i]) kept.push_back(all[s].begin + i);
+        const std::vector<bool> is_chosen = spread_along(lines[s], apart, 0);
+        for (std::size_t i = 0; i < is_chosen.size(); ++i)
+            if (is_chosen[i]) numbers.push_back(all[s].begin + i);
     }
-    return kept;
+    return numbers;
 }
 
 }  // namespace kontur

@@ -88,18 +88,18 @@ std::optional<KnownShare> next_known(const std::vector<BoundaryPoint>& points, c
 
 /// Points that were not looked at, whose share is below 0, get one between those of their neighbours along the line.
 std::vector<double> filled_between(const std::vector<BoundaryPoint>& points, const std::vector<double>& shares) {
-    std::vector<double> filled = shares;
+    std::vector<double> result = shares;
     for (const Stretch& stretch : stretches(points))
         for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
             if (shares[i] >= 0) continue;
             const auto before = next_known(points, shares, stretch, i, false),
                        after = next_known(points, shares, stretch, i, true);
             if (before && after)
-                filled[i] = std::lerp(before->share, after->share,
+                result[i] = std::lerp(before->share, after->share,
                                       before->away_mm / std::max(before->away_mm + after->away_mm, 1e-300));
-            else filled[i] = before ? before->share : after ? after->share : 1;
+            else result[i] = before ? before->share : after ? after->share : 1;
         }
-    return filled;
+    return result;
 }
 
 double square(double x) { return x * x; }
@@ -135,11 +135,11 @@ double LineTurns::square_at(double distance_mm) const {
     return (1 - beyond) * squares_[k] + beyond * squares_[k + 1];
 }
 
-std::vector<double> believed_slopes(const std::vector<BoundaryPoint>& points, std::span<const std::size_t> known,
+std::vector<double> believed_slopes(const std::vector<BoundaryPoint>& points, std::span<const std::size_t> numbers,
                                     std::span<const double> slopes, double scale_mm) {
     const LineTurns turns(points, scale_mm);
     std::vector<Vec3> positions;
-    for (const std::size_t i : known) positions.push_back(points[i].position);
+    for (const std::size_t i : numbers) positions.push_back(points[i].position);
     const PointTree tree(std::move(positions));
     const auto error_at = [&](const BoundaryPoint& point) {
         const auto counted2 = [&](const Vec3& d) {  // at least the squared distance
@@ -150,19 +150,19 @@ std::vector<double> believed_slopes(const std::vector<BoundaryPoint>& points, st
         return turns.square_at(std::sqrt(tree.least(point.position, counted2)));
     };
     std::vector<double> shares(points.size(), -1);  // of what is shown; below 0: not looked at
-    for (std::size_t first = 0, last = 0; first < known.size(); first = last) {
+    for (std::size_t first = 0, last = 0; first < numbers.size(); first = last) {
         double sum = 0;
-        for (; last < known.size() && points[known[last]].contour == points[known[first]].contour; ++last)
-            sum += square(tilt(slopes[known[last]]));
+        for (; last < numbers.size() && points[numbers[last]].contour == points[numbers[first]].contour; ++last)
+            sum += square(tilt(slopes[numbers[last]]));
         const double variance = sum / static_cast<double>(last - first);
         for (std::size_t k = first; k < last; ++k) {
-            const double error = error_at(points[known[k]]);
-            shares[known[k]] = error < variance ? 1 - error / variance : 0.0;
+            const double error = error_at(points[numbers[k]]);
+            shares[numbers[k]] = error < variance ? 1 - error / variance : 0.0;
         }
     }
-    std::vector<double> believed = filled_between(points, shares);
-    for (std::size_t i = 0; i < points.size(); ++i) believed[i] = std::cos(believed[i] * tilt(slopes[i]));
-    return believed;
+    std::vector<double> result = filled_between(points, shares);
+    for (std::size_t i = 0; i < points.size(); ++i) result[i] = std::cos(result[i] * tilt(slopes[i]));
+    return result;
 }
 
 }  // namespace kontur

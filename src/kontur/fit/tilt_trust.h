@@ -10,8 +10,8 @@
 
 namespace kontur {
 
-/// How well the direction of a line is foretold by its course some distance away: the mean square of the angle between the
-/// chord that runs from that far behind a place to that far ahead of it, and the line's own direction there.
+/// How well the course of a line some distance away foretells its direction: the mean square angle between the line's own
+/// direction at a place and the chord from that far behind the place to that far ahead of it.
 class LineTurns {
 public:
     /// `scale_mm` > 0 is the length over which a line has a direction.
@@ -27,9 +27,9 @@ private:
     std::array<double, kChords> squares_{};
 };
 
-/// The tilt of the surface at a point of a contour is read from what was drawn around it in other planes, and is as
-/// uncertain as the surface is rough between there and here. How rough that is the lines tell, which run along the same
-/// surface. Of the tilt t that a fit shows counts the share
+/// The tilt of the surface at a point of a contour is read from lines around it in other planes. It is as uncertain as the
+/// surface is rough in between. The lines themselves tell that roughness, since they run along the same surface. Of the tilt
+/// t that a fit shows, the share that counts is
 ///
 ///     (V - e^2(h)) / V,   at least 0
 ///
@@ -37,10 +37,10 @@ private:
 /// `LineTurns` and h the distance to the nearest point that lies out of the point's plane. A point by s out of the plane, at
 /// the distance h, counts as one at h (1 + (scale/s)^2): a line drawn almost twice tells nothing of a tilt.
 ///
-/// `slopes` are cosines of the tilts at `points`, of which those in `known` (in ascending order, with point 0 and the first
-/// of every line) are looked at; of the others as much counts as of the one before them. Returns the cosines of what is
-/// believed. Source: Wiener, Extrapolation, Interpolation and Smoothing of Stationary Time Series, 1949.
-std::vector<double> believed_slopes(const std::vector<BoundaryPoint>& points, std::span<const std::size_t> known,
+/// `slopes` are cosines of the tilts at `points`, of which those in `numbers` (in ascending order, with point 0 and the
+/// first of every line) are looked at; of the others as much counts as of the one before them. Returns the cosines of what
+/// is believed. Source: Wiener, Extrapolation, Interpolation and Smoothing of Stationary Time Series, 1949.
+std::vector<double> believed_slopes(const std::vector<BoundaryPoint>& points, std::span<const std::size_t> numbers,
                                     std::span<const double> slopes, double scale_mm);
 
 }  // namespace kontur

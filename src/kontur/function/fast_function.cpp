@@ -52,11 +52,11 @@ struct FastFunction::State {
     /// Which of the next `count` points to compare, and counts them as answered.
     std::vector<std::size_t> choose_checked(std::size_t count) {
         const std::size_t every = answered == 0 ? std::max<std::size_t>(count / kFirstChecked, 1) : kCheckedEvery;
-        std::vector<std::size_t> chosen;
-        for (std::size_t i = (every - answered % every) % every; i < count; i += every) chosen.push_back(i);
+        std::vector<std::size_t> numbers;
+        for (std::size_t i = (every - answered % every) % every; i < count; i += every) numbers.push_back(i);
         answered += count;
-        earlier_kernel_values += static_cast<std::int64_t>(chosen.size() * exact.centers().size());
-        return chosen;
+        earlier_kernel_values += static_cast<std::int64_t>(numbers.size() * exact.centers().size());
+        return numbers;
     }
 
     bool reaches(const PointArrays& points) const {

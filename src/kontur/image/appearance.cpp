@@ -25,10 +25,10 @@ using Histograms = Appearance::Histograms;
 float& entry(Histograms& h, int offset, int bin) { return h[static_cast<std::size_t>(offset * kBins + bin)]; }
 
 /// The two bins that share a value in [0, 1].
-struct Binned {
+struct BinShare {
     int first = 0, second = 0;
     float weight = 0;  ///< of the second
-    explicit Binned(double value) {
+    explicit BinShare(double value) {
         const double at = std::clamp(value * kBins - 0.5, 0.0, kBins - 1.0);
         first = static_cast<int>(at);
         second = std::min(first + 1, kBins - 1);
@@ -65,19 +65,19 @@ Spread spread_over_bins() {
 Histograms histograms_of(std::span<const double> intensities, const IntensityScale& scale) {
     static const std::vector<float> over_offsets = gaussian(0.7);
     static const Spread over_bins = spread_over_bins();
-    std::array<std::array<float, kBins>, kOffsets> seen{};
+    std::array<std::array<float, kBins>, kOffsets> spread_counts{};
     for (std::size_t t = 0; t < kOffsets; ++t) {
         if (!std::isfinite(intensities[t])) continue;
-        const Binned bin(scale(intensities[t]));
+        const BinShare bin(scale(intensities[t]));
         const auto &first = over_bins[static_cast<std::size_t>(bin.first)],
                    &second = over_bins[static_cast<std::size_t>(bin.second)];
-        for (std::size_t b = 0; b < kBins; ++b) seen[t][b] = (1 - bin.weight) * first[b] + bin.weight * second[b];
+        for (std::size_t b = 0; b < kBins; ++b) spread_counts[t][b] = (1 - bin.weight) * first[b] + bin.weight * second[b];
     }
     Histograms h{};
     const int reach = static_cast<int>(over_offsets.size()) / 2;
     for (int t = 0; t < kOffsets; ++t)
         for (int n = -reach; n <= reach; ++n) {
-            const auto& row = seen[static_cast<std::size_t>(std::clamp(t + n, 0, kOffsets - 1))];
+            const auto& row = spread_counts[static_cast<std::size_t>(std::clamp(t + n, 0, kOffsets - 1))];
             const float tap = over_offsets[static_cast<std::size_t>(n + reach)];
             for (int b = 0; b < kBins; ++b) entry(h, t, b) += tap * row[static_cast<std::size_t>(b)];
         }
@@ -171,7 +171,7 @@ std::vector<double> Appearance::log_likelihood(const MovingPoint& point, int mos
     for (int at = -reach; at <= reach; ++at) {
         const double value = image_.at(point.position + at * step_mm_ * point.normal);
         if (!std::isfinite(value)) continue;
-        const Binned bin(scale_(value));
+        const BinShare bin(scale_(value));
         std::array<double, kOffsets + 2> by_offset;
         for (std::size_t t = 0; t < by_offset.size(); ++t)
             by_offset[t] = std::lerp(log[t][static_cast<std::size_t>(bin.first)],

@@ -14,38 +14,38 @@ namespace {
 constexpr double kTolerance = 0.02;  // of f, in edges
 
 std::vector<std::uint8_t> cells_on(const ContourSet& contours, const ImageCells& cells) {
-    std::vector<std::uint8_t> marked(cells.looks.size());
+    std::vector<std::uint8_t> marks(cells.looks.size());
     const Affine3 to_index = cells.grid.index_to_mm.inverse();
     for (const Vec3& p : along_contours(contours, 0.5 * cells.edge_mm()))
         for (const double x : {-kBetweenCells, kBetweenCells})
             for (const double y : {-kBetweenCells, kBetweenCells})
                 for (const double z : {-kBetweenCells, kBetweenCells}) {
                     const Index3 cell = nearest_index(to_index.apply(p) + Vec3{x, y, z});
-                    if (cells.holds(cell)) marked[cells.offset(cell)] = 1;
+                    if (cells.holds(cell)) marks[cells.offset(cell)] = 1;
                 }
-    return marked;
+    return marks;
 }
 
 /// The cells inside that have a neighbour outside, or lie at the grid's border.
 std::vector<std::uint8_t> just_below_surface(const std::vector<std::uint8_t>& inside, const ImageCells& cells) {
-    std::vector<std::uint8_t> marked(inside.size());
+    std::vector<std::uint8_t> marks(inside.size());
     for (std::size_t n = 0; n < inside.size(); ++n) {
         if (!inside[n]) continue;
         int around = 0;
         cells.visit_neighbours(n, [&](int, std::size_t next) { around += inside[next]; });
-        marked[n] = around < 6;
+        marks[n] = around < 6;
     }
-    return marked;
+    return marks;
 }
 
 }  // namespace
 
 Depths depths_of(const std::vector<std::uint8_t>& inside, const ImageCells& cells) {
-    NearestMarked found = nearest_marked(cells.grid.size, just_below_surface(inside, cells));
+    DistanceTransform transform = distance_transform(cells.grid.size, just_below_surface(inside, cells));
     const auto edge = static_cast<float>(cells.edge_mm());
     for (std::size_t n = 0; n < inside.size(); ++n)
-        found.distances[n] = edge * (inside[n] ? found.distances[n] + 0.5F : 0.5F - found.distances[n]);
-    return {std::move(found.distances), std::move(found.nearest)};
+        transform.distances[n] = edge * (inside[n] ? transform.distances[n] + 0.5F : 0.5F - transform.distances[n]);
+    return {std::move(transform.distances), std::move(transform.nearest)};
 }
 
 CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function, const ContourSet& contours,
@@ -58,7 +58,7 @@ CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function
                                  .expected_points = expected_surface_voxels(cells.grid, starts)});
     Depths depths =
         depths_of(fill(track_surface_adaptively(fast, cells.grid, starts, work.untold(), doubts), work).values, cells);
-    std::vector<float> far = nearest_marked(cells.grid.size, cells_on(contours, cells)).distances;
+    std::vector<float> far = distance_transform(cells.grid.size, cells_on(contours, cells)).distances;
     for (float& mm : far) mm *= static_cast<float>(cells.edge_mm());
     return {std::move(depths.depth_mm), std::move(far), std::move(depths.nearest)};
 }
@@ -91,9 +91,9 @@ CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const
         at.prior_mm = beliefs.prior_mm(at.distance_mm);
         offsets[below[n]] = static_cast<float>(offset_at(at, movement.points, movement.prior, movement.offsets));
     }
-    CellDepths moved = depths;
-    for (std::size_t n = 0; n < offsets.size(); ++n) moved.depth_mm[n] += offsets[depths.nearest[n]];
-    return moved;
+    CellDepths result = depths;
+    for (std::size_t n = 0; n < offsets.size(); ++n) result.depth_mm[n] += offsets[depths.nearest[n]];
+    return result;
 }
 
 }  // namespace kontur

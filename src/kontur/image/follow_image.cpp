@@ -16,30 +16,30 @@ namespace {
 
 constexpr double kCautiousSlope = 0.12;  // without the gate: prior standard deviation over the distance ...
 constexpr double kCautiousImage = 0.7;   // ... and the image's error in voxels
-constexpr std::size_t kFewPlanes = 3;    // of which leaving one out tells little
 
 /// What speaks for the image and against it.
 struct Trial {
     std::optional<LeftOutPlanes> left_out;
-    std::optional<HeldOutErrors> displaced;  ///< measured where leaving planes out does not show, or hardly, that it helps
-    double left_out_weight = 0, displaced_weight = 0;  ///< how far the surface moves by each; together at most 1
-    double not_denied = 1;                             ///< how far displacing lets the other count
+    std::optional<HeldOutErrors>
+        displacement;  ///< measured where leaving planes out does not show, or hardly, that it helps
+    double left_out_weight = 0, displacement_weight = 0;  ///< how far the surface moves by each; together at most 1
+    double not_denied = 1;                                ///< how far displacing lets the other count
 
-    double moving() const { return left_out_weight + displaced_weight; }
+    double moving() const { return left_out_weight + displacement_weight; }
     double walking() const { return left_out ? not_denied * left_out->walking(moving()) : 0; }
     /// By which it was mostly decided whether the surface moves.
     const HeldOutErrors* deciding() const {
-        const bool is_displaced = displaced && (!left_out || displaced_weight > left_out_weight);
-        return is_displaced ? &*displaced : left_out ? &left_out->errors : nullptr;
+        const bool is_displaced = displacement && (!left_out || displacement_weight > left_out_weight);
+        return is_displaced ? &*displacement : left_out ? &left_out->errors : nullptr;
     }
 
     /// By which it does.
     Beliefs beliefs() const {
-        if (displaced_weight == 0) return left_out->errors.beliefs(left_out_weight);
-        const Beliefs by_displacing = displaced->beliefs(displaced_weight);
+        if (displacement_weight == 0) return left_out->errors.beliefs(left_out_weight);
+        const Beliefs by_displacing = displacement->beliefs(displacement_weight);
         if (left_out_weight == 0) return by_displacing;
         const Beliefs by_leaving_out = left_out->errors.beliefs(left_out_weight);
-        const double share = displaced_weight / moving();
+        const double share = displacement_weight / moving();
         return {[=](double mm) { return std::lerp(by_leaving_out.prior_mm(mm), by_displacing.prior_mm(mm), share); },
                 [=](const MovingPoint& point) {
                     return 1 / std::hypot(1 / by_leaving_out.image_mm(point), 1 / by_displacing.image_mm(point));
@@ -51,20 +51,20 @@ struct Trial {
 struct Question {
     const FittedDrawing& fit;
     const Image& image;
-    const DrawnOnImage& drawn;
+    const Surroundings& surroundings;
     const ImageOptions& options;
     const Work& work;
 
     SurfaceMovement movement(const Beliefs& beliefs) const {
-        return surface_movement(fit, drawn, beliefs, options.samples, work);
+        return surface_movement(fit, surroundings, beliefs, options.samples, work);
     }
     ImageFit fit_of(SurfaceMovement movement) const {
-        return move_surface(std::move(movement), fit, drawn, options.fit, work);
+        return move_surface(std::move(movement), fit, surroundings, options.fit, work);
     }
     std::optional<ImageFit> fit_of_walk(const LeftOutPlanes& left_out, const std::optional<SurfaceMovement>& start) const {
         const Beliefs beliefs = left_out.errors.beliefs();
-        return walk_surface({left_out.cells, drawn.walls, beliefs, drawn.image.voxel_mm()}, fit, start ? &*start : nullptr,
-                            options, work);
+        return walk_surface({left_out.cells, surroundings.walls, beliefs, surroundings.image.voxel_mm()}, fit,
+                            start ? &*start : nullptr, options, work);
     }
     /// From one function to that of a walk, as far as it is followed.
     ImageFit between_fits(const ImageFit& first, ImageFit walk, double share) const {
@@ -85,13 +85,13 @@ Trial try_image(const Question& question, const FitContours& fit_contours) {
     const Drawing& drawing = question.fit.drawing;
     trial.left_out = leave_planes_out(drawing, question.image, fit_contours, question.work);
     if (trial.left_out) trial.left_out_weight = trial.left_out->moving();
-    const bool are_few = contours_by_plane(drawing.contours).size() <= kFewPlanes;
+    const bool are_few = contours_by_plane(drawing.contours).size() <= kFewestPlanes;  // leaving one out tells little
     if (trial.left_out_weight == 1 && !are_few) return trial;
-    trial.displaced = displace_planes(drawing, question.image, question.fit.fitted.function, question.work);
-    if (!trial.displaced) return trial;
-    if (are_few) trial.not_denied = kNotDenied.at(trial.displaced->mended());
+    trial.displacement = displace_planes(drawing, question.image, question.fit.fitted.function, question.work);
+    if (!trial.displacement) return trial;
+    if (are_few) trial.not_denied = kNotDenied.at(trial.displacement->error_reduction());
     trial.left_out_weight *= trial.not_denied;
-    trial.displaced_weight = (1 - trial.left_out_weight) * trial.displaced->weight(kTakenBack);
+    trial.displacement_weight = (1 - trial.left_out_weight) * trial.displacement->weight(kTakenBack);
     return trial;
 }
 
@@ -126,8 +126,8 @@ void describe(const Trial& trial, double walking, ImageReport& report) {
     report.intensities += trial.left_out->cells.intensities;
     if (walking == 0) return;
     const WrongCells wrong = sum(trial.left_out->wrong);
-    report.wrong_without = wrong.by_contours / wrong.drawn;
-    report.wrong_with = wrong.by_walk / wrong.drawn;
+    report.wrong_without = wrong.by_contours / wrong.inside;
+    report.wrong_with = wrong.by_walk / wrong.inside;
     if (report.walked)
         for (ImageShare& point : report.shares) point.share = report.share_left();
 }
@@ -140,16 +140,16 @@ ImageFit follow_image(const FittedDrawing& fit, const Image& image, const FitCon
     if (is_label_map(image)) return {fit.fitted, {.verdict = ImageVerdict::labels}};
     Drawing alike = fit.drawing;
     alike.contours = stored_alike(fit.drawing.contours);
-    const DrawnOnImage drawn(alike, image);
+    const Surroundings surroundings(alike, image);
     const FittedDrawing fit_alike{alike, fit.prepared, fit.fitted};
-    const Question question{fit_alike, image, drawn, options, work};
+    const Question question{fit_alike, image, surroundings, options, work};
     if (!options.gate) {
-        const double voxel = drawn.image.voxel_mm();
+        const double voxel = surroundings.image.voxel_mm();
         const Beliefs cautious{[](double d) { return kCautiousSlope * d; },
                                [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
-        ImageFit moved = question.fit_of(question.movement(cautious));
-        moved.report.weight = 1;
-        return moved;
+        ImageFit result = question.fit_of(question.movement(cautious));
+        result.report.weight = 1;
+        return result;
     }
     const Trial trial = try_image(question, fit_contours);
     const double walking = trial.walking();

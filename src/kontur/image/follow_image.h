@@ -34,13 +34,13 @@ struct ImageFit {
     ImageReport report;
 };
 
-/// Moves the surface between the contours to where the image shows the border, and leaves it where they were drawn. What the
-/// border looks like is learnt along the contours (appearance.h); how far the contours alone are off and how far the image
-/// is, is measured by leaving out one drawn plane after another (leave_out.h), or, where that shows no help, by displacing
-/// the surface at each (displace.h); where the image does not help, nothing is changed. f stays one function: the moved
-/// points are more data with noise, beside those of the fit, of one more solve. An image that says nothing changes nothing.
-/// `fit_contours` fits a part of the drawing. The same bytes for any number of threads, on one type of processor. Throws
-/// Error as `solve` does, Error(invalid_input) as `check_image` does.
+/// Moves the surface between the contours to the border that the image shows, and leaves it where they were drawn. The look
+/// of the border is learnt along the contours (appearance.h). Leaving out one drawn plane after another measures how far the
+/// contours alone are off, and how far the image is (leave_out.h). Where that shows no help, the surface is displaced at
+/// each plane instead (displace.h). Without help nothing changes. f stays one function: one more solve has the moved points
+/// as data with noise. An image that says nothing changes nothing. `fit_contours` fits a part of the drawing. The same bytes
+/// for any number of threads, on one type of processor. Throws Error as `solve` does, Error(invalid_input) as `check_image`
+/// does.
 ImageFit follow_image(const FittedDrawing& fit, const Image& image, const FitContours& fit_contours,
                       const ImageOptions& options, const Work& work = {});
 

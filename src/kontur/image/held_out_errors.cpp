@@ -13,7 +13,6 @@ namespace kontur {
 namespace {
 
 constexpr double kMeanOfDeviation = 0.7979;  // the mean of absolute values over the standard deviation, likewise
-constexpr double kSure = 1;                  // standard errors over the planes, of what is true
 constexpr Rise kSureGain{0, 1};              // and of the mean gain
 constexpr std::size_t kNear = 40;            // held-out points that speak for a place
 constexpr double kLeastImage = 0.25;         // voxels: no image is better known than this
@@ -51,10 +50,10 @@ HeldOutErrors::HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs&
     const double share = 1 / static_cast<double>(held_out_.size());
     std::vector<double> without, distances;
     for (const HeldOutPoint& h : held_out_) {
-        without.push_back(std::abs(limited(h.without_mm)));
+        without.push_back(std::abs(clamped(h.without_mm)));
         distances.push_back(h.distance_mm);
         without_mm_ += share * without.back();
-        with_mm_ += share * std::abs(limited(h.with_mm));
+        with_mm_ += share * std::abs(clamped(h.with_mm));
         add(h, share, truth_);
     }
     median_without_ = median(std::move(without));
@@ -62,25 +61,25 @@ HeldOutErrors::HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs&
     error_of_share_ = error_of_share();
 }
 
-double HeldOutErrors::limited(double error_mm) const { return std::clamp(error_mm, -limit_mm_, limit_mm_); }
+double HeldOutErrors::clamped(double error_mm) const { return std::clamp(error_mm, -limit_mm_, limit_mm_); }
 
 /// Errors count by the deviation that is expected so far from the contours: where larger ones are, each tells less.
 void HeldOutErrors::add(const HeldOutPoint& point, double weight, OffsetTruth& sums) const {
-    const double expected = std::max(beliefs_.prior_mm(point.distance_mm), kLeastPrior * voxel_mm_);
-    sums.add(limited(point.reachable_mm), point.moved_mm(), weight / (expected * expected));
+    const double deviation = std::max(beliefs_.prior_mm(point.distance_mm), kLeastPrior * voxel_mm_);
+    sums.add(clamped(point.reachable_mm), point.moved_mm(), weight / (deviation * deviation));
 }
 
-double HeldOutErrors::mended() const {
+double HeldOutErrors::error_reduction() const {
     const double hand = kMeanOfDeviation * hand_mm_;
     const double without = without_hand(without_mm_, hand);
     return without > 0 ? 1 - without_hand(with_mm_, hand) / without : 0;
 }
 
 double HeldOutErrors::weight(const Rise& enough) const {
-    return believed(truth_) > 0 ? enough.at(mended()) * weight_of_planes() : 0;
+    return sure_share(truth_) > 0 ? enough.at(error_reduction()) * weight_of_planes() : 0;
 }
 
-double HeldOutErrors::seen(double edge_mm) const { return kSeen.at(without_mm_ / edge_mm); }
+double HeldOutErrors::visibility(double edge_mm) const { return kSeen.at(without_mm_ / edge_mm); }
 
 double HeldOutErrors::weight_of_planes() const {
     struct Sum {
@@ -90,7 +89,7 @@ double HeldOutErrors::weight_of_planes() const {
     std::map<std::size_t, Sum> planes;
     for (const HeldOutPoint& h : held_out_) {
         planes[h.plane].points += 1;
-        planes[h.plane].gain_mm += std::abs(limited(h.without_mm)) - std::abs(limited(h.with_mm));
+        planes[h.plane].gain_mm += std::abs(clamped(h.without_mm)) - std::abs(clamped(h.with_mm));
     }
     const auto count = static_cast<double>(planes.size());
     double mean = 0, squares = 0;
@@ -119,8 +118,8 @@ double HeldOutErrors::error_of_share() const {
 }
 
 /// The share of what the image tells that is true, surely.
-double HeldOutErrors::believed(const OffsetTruth& truth) const {
-    return std::clamp(truth.share() - kSure * error_of_share_, 0.0, 1.0);
+double HeldOutErrors::sure_share(const OffsetTruth& truth) const {
+    return std::clamp(truth.share() - error_of_share_, 0.0, 1.0);
 }
 
 Beliefs HeldOutErrors::beliefs(double weight) const {
@@ -143,12 +142,12 @@ double HeldOutErrors::image_sd(const MovingPoint& point, double weight) const {
     std::vector<double> errors;
     OffsetTruth truth = truth_;
     for (const HeldOutPoint* h : near) {
-        errors.push_back(std::abs(limited(h->without_mm)));
+        errors.push_back(std::abs(clamped(h->without_mm)));
         add(*h, 1 / static_cast<double>(near.size()), truth);
     }
     const double error = without_hand(kDeviationOfMedian * 0.5 * (median(std::move(errors)) + median_without_), hand_mm_);
     // Of errors u and what an image that is off by e of its own tells, u + e, the share u^2 / (u^2 + e^2) is true.
-    const double share = weight * believed(truth);
+    const double share = weight * sure_share(truth);
     if (share == 0) return std::numeric_limits<double>::infinity();
     // Held-out contours are about twice as far from others as what lies between all of them. Of what lies farther than they
     // did, less is known.

@@ -60,26 +60,26 @@ public:
     double with_mm() const { return with_mm_; }
     std::size_t planes() const { return planes_; }
     std::int64_t intensities() const { return intensities_; }  ///< read from the image
-    /// How far the image is followed: 0 where the mean error with it is not below that without it by the first of these
-    /// shares, or lower in no more planes than chance makes it; 1 where it is by the second, and by a standard error over
-    /// the planes. In between it rises steadily, so that nothing flips with small changes of a fit.
+    /// How far the image is followed, from 0 to 1. It rises steadily, so that small changes of a fit flip nothing. 0 where
+    /// the mean error with it is not below that without it by the first of these shares, or lower in no more planes than by
+    /// chance. 1 where it is below by the second share, and by a standard error over the planes.
     double weight(const Rise& enough = kHelps) const;
     static constexpr Rise kHelps{0, 0.05};
     /// The share of the mean error that the image takes away, without what the hand adds to both.
-    double mended() const;
-    /// How far the errors without the image are larger than what an image of voxels (or cells) so long tells: 0 up to a
-    /// quarter of one, 1 from half of one on. Contours that hold the surface better than that have nothing to ask.
-    double seen(double edge_mm) const;
-    double seen() const { return seen(voxel_mm_); }
+    double error_reduction() const;
+    /// How far the errors without the image exceed what an image of voxels (or cells) of this edge can tell: 0 up to a
+    /// quarter of one, 1 from half of one on. Contours that hold the surface better than that need no image.
+    double visibility(double edge_mm) const;
+    double visibility() const { return visibility(voxel_mm_); }
     /// What is true of the image's offsets counts that much only. The result refers to nothing.
     Beliefs beliefs(double weight = 1) const;
 
 private:
     double weight_of_planes() const;
     double error_of_share() const;
-    double believed(const OffsetTruth& truth) const;
+    double sure_share(const OffsetTruth& truth) const;
     double image_sd(const MovingPoint& point, double weight) const;
-    double limited(double error_mm) const;
+    double clamped(double error_mm) const;
     void add(const HeldOutPoint& point, double weight, OffsetTruth& sums) const;
     std::vector<const HeldOutPoint*> nearest(const Vec3& place) const;
 

@@ -24,16 +24,17 @@ void append(std::vector<Vec3>& points, const Contour& contour) {
 
 }  // namespace
 
-std::vector<Vec3> ImageMemory::places_in(const ContourSet& edited) const {
+std::vector<Vec3> ImageMemory::places_in(const ContourSet& set) const {
     if (shares_.empty()) return {};
-    std::vector<Vec3> same, changed;
-    for (const Contour& contour : edited.contours) append(contains(contours_, contour) ? same : changed, contour);
+    std::vector<Vec3> same, differing;
+    for (const Contour& contour : set.contours) append(contains(contours_, contour) ? same : differing, contour);
     for (const Contour& contour : contours_.contours)
-        if (!contains(edited, contour)) append(changed, contour);
-    const PointTree same_lines(std::move(same)), changed_lines(std::move(changed));
+        if (!contains(set, contour)) append(differing, contour);
+    const PointTree same_lines(std::move(same)), differing_lines(std::move(differing));
     std::vector<Vec3> places;
     for (const ImageShare& image : shares_)
-        if (image.share <= kMostShare && same_lines.distance_to(image.position) < changed_lines.distance_to(image.position))
+        if (image.share <= kMostShare &&
+            same_lines.distance_to(image.position) < differing_lines.distance_to(image.position))
             places.push_back(image.position);
     return places;
 }

@@ -19,7 +19,7 @@ public:
 
     /// Places, mm, at which the image showed the surface of the drawing and, as far as is known, shows that of an edited
     /// one: those nearer to a contour that is still the same than to any that came, went or changed.
-    std::vector<Vec3> places_in(const ContourSet& edited) const;
+    std::vector<Vec3> places_in(const ContourSet& set) const;
 
 private:
     ContourSet contours_;

@@ -31,7 +31,7 @@ std::string where_used(const ImageReport& report) {
                : "used between the contours";
 }
 
-std::string used(const ImageReport& report) {
+std::string sentence_of_use(const ImageReport& report) {
     if (report.planes_left_out == 0) return "the image was used between the contours, without knowing whether it helps";
     if (report.walked)
         return fmt::format(
@@ -85,7 +85,7 @@ std::string sentence(const ImageReport& report) {
         case ImageVerdict::astray:
             return "the image leads the surface farther from the contours than it was asked for; not used";
         case ImageVerdict::used:
-            return used(report);
+            return sentence_of_use(report);
     }
     return "";
 }

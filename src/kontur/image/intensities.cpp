@@ -44,19 +44,19 @@ bool is_label_map(const Image& image) {
             const double value = sample(image, first + static_cast<std::size_t>(i));
             if (!std::isfinite(value)) return false;
             is_whole = is_whole && value == std::round(value);
-            Pairs& known = pairs[value];
-            ++known.all;
-            known.alike += value == sample(image, first + static_cast<std::size_t>(i) + 1);
+            Pairs& counts = pairs[value];
+            ++counts.all;
+            counts.alike += value == sample(image, first + static_cast<std::size_t>(i) + 1);
             if (pairs.size() > (is_whole ? kMostLabels : 2)) return false;
         }
     }
     if (pairs.size() <= 1) return is_of_one_value(image);
     if (pairs.size() == 2) return true;
     Pairs total, background;
-    for (const auto& [value, known] : pairs) {
-        total.all += known.all;
-        total.alike += known.alike;
-        if (std::tie(known.all, known.alike) > std::tie(background.all, background.alike)) background = known;
+    for (const auto& [value, counts] : pairs) {
+        total.all += counts.all;
+        total.alike += counts.alike;
+        if (std::tie(counts.all, counts.alike) > std::tie(background.all, background.alike)) background = counts;
     }
     return static_cast<double>(total.alike - background.alike) > kAlike * static_cast<double>(total.all - background.all);
 }

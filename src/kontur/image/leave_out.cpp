@@ -26,7 +26,7 @@ constexpr std::size_t kMostCells = 150'000;  // of the lattice for walks
 struct Fold {
     ContourSet plane, rest;
     ImplicitFunction function;
-    DrawnOnImage others;
+    Surroundings others;
     std::vector<Vec3> samples;
     std::vector<Vec3> held_out;           ///< drawn points
     std::vector<MovingPoint> on_surface;  ///< the points of the surface nearest to them
@@ -35,7 +35,7 @@ struct Fold {
 
 /// What all folds are made from.
 struct FoldSource {
-    const ContourSet& drawn;
+    const ContourSet& contours;
     const Image& image;
     const FitContours& fit;
     double step_mm;  ///< from one held-out point to the next
@@ -43,11 +43,11 @@ struct FoldSource {
 
 std::optional<Fold> leave_out(const FoldSource& source, const PlaneGroup& group, const Work& alone) {
     try {
-        const Drawing rest(without(source.drawn, group), FillRule::declared);
-        Fold fold{only(source.drawn, group),
+        const Drawing rest(without(source.contours, group), FillRule::declared);
+        Fold fold{only(source.contours, group),
                   rest.contours,
                   source.fit(rest.contours),
-                  DrawnOnImage(rest, source.image),
+                  Surroundings(rest, source.image),
                   {},
                   {},
                   {},
@@ -102,9 +102,9 @@ PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beli
         MovingPoint& at = fold.on_surface[i];
         if (at.distance_mm <= voxel_mm) continue;
         at.prior_mm = beliefs.prior_mm(at.distance_mm);
-        const double moved = offset_at(at, movement.points, movement.prior, movement.offsets);
+        const double offset = offset_at(at, movement.points, movement.prior, movement.offsets);
         const double error = fold.errors_mm[i], reachable = std::clamp(error, at.least_mm, at.most_mm);
-        errors.points.push_back({fold.held_out[i], at.distance_mm, error, error - moved, reachable, plane});
+        errors.points.push_back({fold.held_out[i], at.distance_mm, error, error - offset, reachable, plane});
     }
     return errors;
 }
@@ -114,21 +114,21 @@ PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beli
 WrongCells walk(const Fold& fold, const MovedSurface& surface, const ImageCells& cells, double moving, const Work& alone) {
     const CellSlab near{fold.plane.contours.front().plane, kAskedBeside * cells.edge_mm()};
     const CellDepths depths = cell_depths(cells, fold.function, fold.rest, alone, Doubts::left);
-    const CellDepths moved = moved_depths(depths, cells, surface, near, alone);
+    const CellDepths by_movement = moved_depths(depths, cells, surface, near, alone);
     const WalkOptions options{fold.others.walls, surface.beliefs.prior_mm, smallest_ball(fold.rest).diameter(), near};
-    const VoxelWalk walk = walk_voxels(cells, between(depths, moved, moving), options, alone);
-    return count_wrong(fold.plane, cells, depths, moved, walk);
+    const VoxelWalk walk = walk_voxels(cells, between(depths, by_movement, moving), options, alone);
+    return count_wrong(fold.plane, cells, depths, by_movement, walk);
 }
 
 }  // namespace
 
 std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
                                               const Work& work) {
-    const ContourSet& drawn = drawing.contours;
-    const std::vector<PlaneGroup> groups = at_most(kMostPlanes, contours_by_plane(drawn));
+    const ContourSet& contours = drawing.contours;
+    const std::vector<PlaneGroup> groups = at_most(kMostPlanes, contours_by_plane(contours));
     if (groups.size() < kFewestPlanes) return std::nullopt;
     const double voxel = Intensities(image).voxel_mm();
-    const FoldSource source{drawn, image, fit, std::max(voxel, length_mm(drawn) / kHeldOutPoints)};
+    const FoldSource source{contours, image, fit, std::max(voxel, length_mm(contours) / kHeldOutPoints)};
     std::vector<std::optional<Fold>> folds(groups.size());
     const Work alone{.threads = 1, .stop = work.stop};  // folds are computed beside each other
     parallel_for(static_cast<std::int64_t>(groups.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
@@ -152,8 +152,8 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     if (!tell_enough(errors)) return std::nullopt;
     const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
     LeftOutPlanes left_out{HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand),
-                           image_cells(image, drawn, kMostCells, work), std::vector<WrongCells>(folds.size())};
-    if (left_out.walk_seen() == 0) return left_out;  // no walk would count
+                           image_cells(image, contours, kMostCells, work), std::vector<WrongCells>(folds.size())};
+    if (left_out.walk_visibility() == 0) return left_out;  // no walk would count
     const double moving = left_out.moving();
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)

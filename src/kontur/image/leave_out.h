@@ -21,15 +21,15 @@ struct LeftOutPlanes {
 
     /// How far the surface is moved, and how far it is drawn to a walk where it is moved so far; both 0 to 1. A walk knows
     /// its cells only, which are larger than voxels where the drawing has many.
-    double moving() const { return errors.seen() * errors.weight(); }
-    double walking(double moving) const { return walk_seen() * walk_weight(wrong, moving); }
-    double walk_seen() const { return errors.seen(cells.edge_mm()); }
+    double moving() const { return errors.visibility() * errors.weight(); }
+    double walking(double moving) const { return walk_visibility() * walk_weight(wrong, moving); }
+    double walk_visibility() const { return errors.visibility(cells.edge_mm()); }
 };
 
-/// Leaves out one drawn plane after another, at most 10 of them, fits the others, lets the image move that surface, and
-/// looks how far it passes from the contours left out; and lets a random walk on the image's cells begin with it, moved as
-/// far as that helps, and looks how much of the plane is on the wrong side. Nothing where fewer than 3 planes were drawn or
-/// too little of them is left. What contours disagree by where they cross is their own error and not counted.
+/// Leaves out one drawn plane after another, at most 10 of them. It fits the others, lets the image move that surface, and
+/// measures how far it passes from the contours left out. Then a random walk on the image's cells begins with the moved
+/// surface; the result is how much of the plane is on the wrong side. Nothing where fewer than 3 planes were drawn or too
+/// little of them is left. What contours disagree by where they cross is their own error and not counted.
 std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
                                               const Work& work);
 

@@ -28,15 +28,15 @@ std::vector<PointConstraint> observations(const Movement& movement, const Implic
         for (const double side : {0.0, 1.0, -1.0}) from.push_back(p.position + side * voxel_mm * p.normal);
     std::vector<double> values(from.size());
     before.values(from, values, work);
-    std::vector<PointConstraint> observed;
+    std::vector<PointConstraint> constraints;
     for (std::size_t i = 0; i < from.size(); ++i) {
         const std::size_t point = i / 3;
         const double noise = kFollow * std::max(movement.offsets.sd_mm[point], kLeastDeviation * voxel_mm);
-        observed.push_back({.position = from[i] + movement.offsets.mean_mm[point] * movement.points[point].normal,
-                            .value = values[i],
-                            .noise_mm = i % 3 == 0 ? noise : kBeside * noise});
+        constraints.push_back({.position = from[i] + movement.offsets.mean_mm[point] * movement.points[point].normal,
+                               .value = values[i],
+                               .noise_mm = i % 3 == 0 ? noise : kBeside * noise});
     }
-    return observed;
+    return constraints;
 }
 
 /// How far the nearest point of the surface moves outwards.
@@ -47,16 +47,16 @@ double change_near(const Movement& movement, const Vec3& place) {
 }
 
 /// Where moving points would meet a drawn plane: f stays there what the contours make of it.
-std::vector<PointConstraint> anchors_in_planes(const Movement& movement, const DrawnOnImage& drawn,
+std::vector<PointConstraint> anchors_in_planes(const Movement& movement, const Surroundings& surroundings,
                                                const ImplicitFunction& fitted, const Work& work) {
-    const double voxel = drawn.image.voxel_mm();
+    const double voxel = surroundings.image.voxel_mm();
     std::vector<Vec3> places;
     for (const MovingPoint& p : movement.points)
         for (const double wall : {p.least_mm, p.most_mm}) {
             const bool near = std::abs(wall) < std::max(2.5 * p.prior_mm, 2 * voxel) && std::abs(wall) > 0.5 * voxel;
             if (!near) continue;
             const Vec3 place = p.position + wall * p.normal;
-            if (nearest_distance(place, drawn.points) > voxel && nearest_distance(place, places) > 1.5 * voxel)
+            if (nearest_distance(place, surroundings.points) > voxel && nearest_distance(place, places) > 1.5 * voxel)
                 places.push_back(place);
         }
     std::vector<double> values(places.size());
@@ -98,9 +98,9 @@ std::vector<ImageShare> image_shares(const Movement& movement) {
 }
 
 /// As far from the surface as offsets are searched, and as points of it are apart.
-SearchedBand searched_band(const std::vector<Vec3>& surface, const DrawnOnImage& drawn, const Beliefs& beliefs,
+SearchedBand searched_band(const std::vector<Vec3>& surface, const Surroundings& surroundings, const Beliefs& beliefs,
                            double spacing_mm) {
-    const PointTree contours(drawn.points);
+    const PointTree contours(surroundings.points);
     std::vector<double> reach;
     for (const Vec3& p : surface) reach.push_back(kSearched * beliefs.prior_mm(contours.distance_to(p)) + spacing_mm);
     return {surface, std::move(reach)};
@@ -116,7 +116,7 @@ void hold_back(Movement& movement, std::span<const Vec3> places) {
 
 }  // namespace
 
-SurfaceMovement surface_movement(const FittedDrawing& fit, const DrawnOnImage& drawn, const Beliefs& beliefs,
+SurfaceMovement surface_movement(const FittedDrawing& fit, const Surroundings& surroundings, const Beliefs& beliefs,
                                  std::size_t samples, const Work& work) {
     const ContourSet& contours = fit.drawing.contours;
     const ImplicitFunction& function = fit.fitted.function;
@@ -125,24 +125,24 @@ SurfaceMovement surface_movement(const FittedDrawing& fit, const DrawnOnImage& d
     std::vector<Vec3> points = spread(surface.points, samples, frame_of(contours));
     slide_to_surface(function, points, {.reach_mm = surface.spacing_mm}, work);
     work.check();
-    surface.movement = find_movement(drawn, function, points, beliefs, work);
+    surface.movement = find_movement(surroundings, function, points, beliefs, work);
     return surface;
 }
 
 /// The image is asked once, as it was where contours were left out: asked again from the moved surface it would be believed
 /// twice.
-ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const DrawnOnImage& drawn,
+ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const Surroundings& surroundings,
                       const FitOptions& options, const Work& work) {
     const auto& [drawing, prepared, fitted] = fit;
-    const double voxel = drawn.image.voxel_mm(), spacing = surface.spacing_mm;
+    const double voxel = surroundings.image.voxel_mm(), spacing = surface.spacing_mm;
     Movement& movement = surface.movement;
     ImageFit result{fitted, {}};
     result.report.intensities = movement.intensities;
     result.report.verdict = ImageVerdict::used;
     if (movement.points.empty()) return result;
 
-    const SearchedBand band = searched_band(surface.points, drawn, surface.beliefs, spacing);
-    const std::vector<PointConstraint> anchors = anchors_in_planes(movement, drawn, fitted.function, work);
+    const SearchedBand band = searched_band(surface.points, surroundings, surface.beliefs, spacing);
+    const std::vector<PointConstraint> anchors = anchors_in_planes(movement, surroundings, fitted.function, work);
     Refit refit(prepared, fitted, options, voxel);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         work.check();
@@ -150,11 +150,11 @@ ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const D
                        changes_outside(movement, fitted, frame_of(drawing.contours), drawing.diameter_mm() / 2),
                        [&](const Vec3& p) { return change_near(movement, p); }};
         data.values.insert(data.values.end(), anchors.begin(), anchors.end());
-        FittedFunction moved = refit.with(data, work);
+        FittedFunction refitted = refit.with(data, work);
         const std::vector<Vec3> strays =
-            band.left_from(points_of_surface(moved.function, drawing.contours, spacing, work), work);
+            band.left_from(points_of_surface(refitted.function, drawing.contours, spacing, work), work);
         if (strays.empty()) {
-            result.fitted = std::move(moved);
+            result.fitted = std::move(refitted);
             result.report.on_contours_mm = largest_change(fitted.function, result.fitted.function, drawing.contours, work);
             result.report.shares = image_shares(movement);
             for (const double u : movement.offsets.mean_mm)

@@ -15,12 +15,12 @@ struct SurfaceMovement {
 };
 
 /// `samples`: about so many points of the surface are moved.
-SurfaceMovement surface_movement(const FittedDrawing& fit, const DrawnOnImage& drawn, const Beliefs& beliefs,
+SurfaceMovement surface_movement(const FittedDrawing& fit, const Surroundings& surroundings, const Beliefs& beliefs,
                                  std::size_t samples, const Work& work);
 
 /// Moves the surface to where the image shows the border, as far as that is believed, by one more solve. Verdict: used, or
 /// astray.
-ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const DrawnOnImage& drawn,
+ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const Surroundings& surroundings,
                       const FitOptions& options, const Work& work);
 
 }  // namespace kontur

@@ -16,9 +16,9 @@
 
 namespace kontur {
 
-/// A drawing as the image is asked about it.
-struct DrawnOnImage {
-    DrawnOnImage(const Drawing& drawing, const Image& image);
+/// What surrounds a drawing: the image, places along the contours, and the walls that they make.
+struct Surroundings {
+    Surroundings(const Drawing& drawing, const Image& image);
 
     Intensities image;
     std::vector<Vec3> points;    ///< along the contours, close together: how far a place is from them
@@ -41,14 +41,15 @@ struct Movement {
     std::int64_t intensities = 0;  ///< read from the image
 };
 
-inline constexpr std::size_t kLeastPoints = 10;  ///< of a surface, and of errors: fewer tell nothing
-inline constexpr double kLeastPrior = 0.08;      ///< voxels: no offset is known better than this beforehand
-inline constexpr double kMostPriorSlope = 0.25;  ///< prior standard deviation over the distance from the contours
-inline constexpr double kSearched = 2.5;         ///< prior standard deviations to each side: no offset beyond is considered
+inline constexpr std::size_t kLeastPoints = 10;     ///< of a surface, and of errors: fewer tell nothing
+inline constexpr double kMostContourPoints = 4000;  ///< along the contours, to measure distances from them
+inline constexpr double kLeastPrior = 0.08;         ///< voxels: no offset is known better than this beforehand
+inline constexpr double kMostPriorSlope = 0.25;     ///< prior standard deviation over the distance from the contours
+inline constexpr double kSearched = 2.5;  ///< prior standard deviations to each side: no offset beyond is considered
 
 /// Asks the image how far the surface of f at some points of it (mm) is off. Points less than three quarters of a voxel from
 /// a contour are left out; none where fewer than 10 remain.
-Movement find_movement(const DrawnOnImage& drawn, const ImplicitFunction& function, std::span<const Vec3> points,
+Movement find_movement(const Surroundings& surroundings, const ImplicitFunction& function, std::span<const Vec3> points,
                        const Beliefs& beliefs, const Work& work);
 
 }  // namespace kontur

@@ -43,9 +43,9 @@ std::vector<double> caps(const std::vector<double>& correlations, std::size_t n,
     std::vector<double> most(n, 1 / (sharpest * sharpest));
     if (evidence.image_sd_mm.empty()) return most;
     for (std::size_t i = 0; i < n; ++i) {
-        double shared = 0;
-        for (std::size_t j = 0; j < n; ++j) shared += correlations[j + n * i];
-        most[i] = std::min(most[i], 1 / (std::pow(evidence.image_sd_mm[i], 2) * shared));
+        double correlated = 0;
+        for (std::size_t j = 0; j < n; ++j) correlated += correlations[j + n * i];
+        most[i] = std::min(most[i], 1 / (std::pow(evidence.image_sd_mm[i], 2) * correlated));
     }
     return most;
 }
@@ -75,8 +75,8 @@ Site match(const OffsetEvidence& evidence, std::size_t point, double cavity_prec
     const double precision = std::clamp(1 / variance - cavity_precision, 0.0, sharpest);
     if (precision <= 0) return {};
     const double information = mean * (precision + cavity_precision) - cavity_mean * cavity_precision;
-    const double capped = std::min(precision, cap);
-    return {capped, information * capped / precision};
+    const double limited = std::min(precision, cap);
+    return {limited, information * limited / precision};
 }
 
 }  // namespace

@@ -58,9 +58,9 @@ ImplicitFunction PartFits::of(const ContourSet& part, double diameter_mm, const 
     const std::string key = digest(part, diameter_mm);
     {
         const std::lock_guard lock(mutex_);
-        if (const auto found = fits_.find(key); found != fits_.end()) {
-            found->second.question = question_;
-            return found->second.function;
+        if (const auto entry = fits_.find(key); entry != fits_.end()) {
+            entry->second.question = question_;
+            return entry->second.function;
         }
     }
     ImplicitFunction function = fit(part);  // others need not wait for it

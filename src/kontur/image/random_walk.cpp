@@ -38,7 +38,7 @@ std::vector<double> walk_inside(const std::vector<WalkPlace>& places, double tol
     const std::size_t count = places.size();
     const std::vector<double> diagonal = diagonal_of(places);
     // From what each place's own ends say, which is near the answer where most walks end soon.
-    std::vector<double> x(count), residual(count), scaled(count), direction(count), along(count);
+    std::vector<double> x(count), residual(count), preconditioned(count), direction(count), along(count);
     double aim = 0;
     for (std::size_t n = 0; n < count; ++n) {
         x[n] = places[n].ends > 0 ? places[n].ends_inside / places[n].ends : 0.5;
@@ -47,9 +47,9 @@ std::vector<double> walk_inside(const std::vector<WalkPlace>& places, double tol
     multiply(places, diagonal, x, along);
     for (std::size_t n = 0; n < count; ++n) {
         residual[n] = places[n].ends_inside - along[n];
-        direction[n] = scaled[n] = residual[n] / diagonal[n];
+        direction[n] = preconditioned[n] = residual[n] / diagonal[n];
     }
-    double rest = product(residual, scaled);
+    double rest = product(residual, preconditioned);
     for (int step = 0; step < kMostSteps && product(residual, residual) > tolerance * tolerance * aim; ++step) {
         work.check();
         multiply(places, diagonal, direction, along);
@@ -57,10 +57,10 @@ std::vector<double> walk_inside(const std::vector<WalkPlace>& places, double tol
         for (std::size_t n = 0; n < count; ++n) {
             x[n] += length * direction[n];
             residual[n] -= length * along[n];
-            scaled[n] = residual[n] / diagonal[n];
+            preconditioned[n] = residual[n] / diagonal[n];
         }
-        const double next = product(residual, scaled);
-        for (std::size_t n = 0; n < count; ++n) direction[n] = scaled[n] + next / rest * direction[n];
+        const double next = product(residual, preconditioned);
+        for (std::size_t n = 0; n < count; ++n) direction[n] = preconditioned[n] + next / rest * direction[n];
         rest = next;
     }
     return x;

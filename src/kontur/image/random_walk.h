@@ -18,6 +18,12 @@ struct WalkPlace {
     double ends_inside = 0;  ///< the part of them that ends inside
 };
 
+/// How walks on an image's voxels weigh looks and depths, for a label's voxels (correct) as for cells (voxel_walk.h).
+inline constexpr double kLookContrast = 100;      ///< how much a difference of looks hinders a step
+inline constexpr double kLeastStepWeight = 1e-3;  ///< of a step between looks that have nothing in common
+inline constexpr double kLogistic = 1.7;          ///< the logistic function that is like the normal distribution's
+inline constexpr double kLookExamples = 2000;     ///< about so many voxels teach what looks mean
+
 /// For each place the probability that a walk from it ends inside (Grady 2006): x with
 /// (ends + sum w) x - sum w x_next = ends_inside, by conjugate gradients scaled by the diagonal, until the residual is less
 /// than `tolerance` times the ends. The same bytes always: one thread, sums in the order of the places.

@@ -25,19 +25,19 @@ double length_mm(const std::vector<BoundaryPoint>& points) {
     return length;
 }
 
-struct Scaled {
+struct Term {
     const ImplicitFunction& function;
     double factor;
 };
 
 /// Both have the same kernel and frame; a centre that both have is one.
-ImplicitFunction sum(const Scaled& first, const Scaled& second) {
+ImplicitFunction sum(const Term& first, const Term& second) {
     std::vector<Vec3> centers;
     std::vector<double> weights;
     std::array<double, 4> polynomial{};
     std::map<std::array<double, 3>, std::size_t> number;
-    for (const Scaled& scaled : {first, second}) {
-        const ImplicitFunction& f = scaled.function;
+    for (const Term& term : {first, second}) {
+        const ImplicitFunction& f = term.function;
         for (std::size_t i = 0; i < f.weights().size(); ++i) {
             const Vec3 c = f.centers()[i];
             const auto [at, is_new] = number.emplace(std::array{c.x, c.y, c.z}, centers.size());
@@ -45,9 +45,9 @@ ImplicitFunction sum(const Scaled& first, const Scaled& second) {
                 centers.push_back(c);
                 weights.push_back(0);
             }
-            weights[at->second] += scaled.factor * f.weights()[i];
+            weights[at->second] += term.factor * f.weights()[i];
         }
-        for (std::size_t i = 0; i < polynomial.size(); ++i) polynomial[i] += scaled.factor * f.polynomial()[i];
+        for (std::size_t i = 0; i < polynomial.size(); ++i) polynomial[i] += term.factor * f.polynomial()[i];
     }
     return {first.function.kernel(), first.function.frame(), PointArrays(centers), std::move(weights), polynomial};
 }
@@ -87,13 +87,13 @@ Refit::Refit(const PreparedContours& prepared, const FittedFunction& fitted, con
     options_.solve.tolerance_mm = std::max(*options_.solve.tolerance_mm, kTolerance * spacing_mm);
     options_.solve.ball = Ball3{fitted.function.frame().center, fitted.function.frame().scale};
     options_.solve.mean_radii = 0;
-    known_ = place_constraints(points_, slopes_, {}, place_options(options_)).constraints.size();
+    contour_constraints_ = place_constraints(points_, slopes_, {}, place_options(options_)).constraints.size();
 }
 
 FittedFunction Refit::with(const ImageData& data, const Work& work) const {
-    PlacedConstraints placed = place_constraints(points_, slopes_, changes(data, work), place_options(options_));
-    std::fill_n(placed.constraints.values.begin(), known_, 0.0);
-    const Solution change = solve(placed.constraints, options_.solve, work);
+    PlacedConstraints placement = place_constraints(points_, slopes_, changes(data, work), place_options(options_));
+    std::fill_n(placement.constraints.values.begin(), contour_constraints_, 0.0);
+    const Solution change = solve(placement.constraints, options_.solve, work);
     FittedFunction result = fitted_;
     result.report = change.report;
     result = with_function(std::move(result), sum({fitted_.function, 1}, {change.function, 1}));
@@ -105,7 +105,7 @@ FittedFunction Refit::with(const ImageData& data, const Work& work) const {
 /// What is known of g besides the contours.
 std::vector<PointConstraint> Refit::changes(const ImageData& data, const Work& work) const {
     std::vector<PointConstraint> changes = fitted_.active_bounds;
-    for (PointConstraint& held : changes) held.value = change_at(bound_at(held.position), data.change_mm(held.position));
+    for (PointConstraint& bound : changes) bound.value = change_at(bound_at(bound.position), data.change_mm(bound.position));
     std::vector<Vec3> places;
     for (const PointConstraint& one : data.values) places.push_back(one.position);
     std::vector<double> before(places.size());

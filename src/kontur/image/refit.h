@@ -29,10 +29,10 @@ inline constexpr double kOutsideNoise = 0.3;  ///< of the distance from the surf
 /// Whether a place outside is to tell that: far ones are beyond the reach of sums, and f falls there by itself.
 bool may_tell_outside(const FittedFunction& fitted, const Vec3& place);
 
-/// Adds what the image says to a fit f: f + g, where g is the smoothest function of the same kernel that is 0 in all that
-/// the fit knew and elsewhere what f is off the image's data. That is the minimum of fit and image together, but that g
-/// knows the contours by points as far apart as the image tells details; f knows all. A bound that f is held at goes with
-/// the surface where that is moved away from it.
+/// Adds what the image says to a fit f. The result is f + g. g is the smoothest function of the same kernel that is 0 at all
+/// data of the fit, and elsewhere the image's data less f. That is the minimum of fit and image together, but for one thing:
+/// g knows the contours only by points as far apart as the image tells details. A bound at which f is held moves with the
+/// surface.
 class Refit {
 public:
     /// Keeps references to `prepared`, and to `fitted`, a fit to it.
@@ -49,7 +49,7 @@ private:
     FitOptions options_;
     std::vector<BoundaryPoint> points_;  ///< of the contours, and their slopes
     std::vector<double> slopes_;
-    std::size_t known_;  ///< constraints of the contours
+    std::size_t contour_constraints_;  ///< constraints of the contours
 };
 
 /// The function between two fits of one drawing, of which the second counts so much.

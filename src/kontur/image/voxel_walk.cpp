@@ -12,7 +12,6 @@ namespace kontur {
 namespace {
 
 constexpr double kTolerance = 1e-3;
-constexpr double kEdges = 100;         // how much a difference of looks hinders a step
 constexpr double kTie = 0.3;           // of a cell to what is known of it alone, beside its steps
 constexpr double kReach = 3;           // half the band's width in standard deviations ...
 constexpr double kLeastReach = 0.8;    // ... and cells more ...
@@ -20,9 +19,6 @@ constexpr double kMostReach = 15;      // ... but no more than so many mm
 constexpr double kLeastDeviation = 1;  // cells
 constexpr double kLooks = 0.12;        // of the drawing's diameter: how far examples of looks reach
 constexpr double kLooksWeight = 1.5;
-constexpr float kLeastStep = 1e-3F;
-constexpr double kLogistic = 1.7;   // the logistic function that is like the normal distribution's
-constexpr double kExamples = 2000;  // about so many of looks
 
 class Walker {
 public:
@@ -66,7 +62,7 @@ private:
 
     LocalLooks looks_of_planes() const {
         std::vector<LookExample> some;
-        const double share = kExamples / static_cast<double>(examples_.size());
+        const double share = kLookExamples / static_cast<double>(examples_.size());
         for (const std::size_t n : examples_)
             if (place_in_turn(cells_.index(n)) < share)
                 some.push_back({cells_.center(n), cells_.looks[n], depths_.is_inside(n)});
@@ -77,8 +73,8 @@ private:
 
     float step(std::size_t from, std::size_t to) const {
         const float apart = cells_.looks[from] - cells_.looks[to];
-        if (!std::isfinite(apart)) return kLeastStep;
-        return std::exp(-static_cast<float>(kEdges) * apart * apart) + kLeastStep;
+        if (!std::isfinite(apart)) return static_cast<float>(kLeastStepWeight);
+        return std::exp(-static_cast<float>(kLookContrast) * apart * apart) + static_cast<float>(kLeastStepWeight);
     }
 
     /// How likely a cell is inside by its depth and its look alone.
@@ -113,11 +109,11 @@ private:
 
     /// Gives to the other side what no seed of its own is connected with.
     void leave_out_islands(bool side) {
-        std::vector<std::uint8_t> reached(number_.size());
+        std::vector<std::uint8_t> is_reached(number_.size());
         std::vector<std::size_t> front;
         const auto reach = [&](std::size_t cell) {
-            if (walk_.is_inside(cell) != side || reached[cell]) return;
-            reached[cell] = 1;
+            if (walk_.is_inside(cell) != side || is_reached[cell]) return;
+            is_reached[cell] = 1;
             front.push_back(cell);
         };
         for (const std::uint32_t cell : walk_.band)
@@ -132,7 +128,7 @@ private:
             });
         }
         for (const std::uint32_t cell : walk_.band)
-            if (walk_.is_inside(cell) == side && !reached[cell]) walk_.inside[cell] = 1 - walk_.inside[cell];
+            if (walk_.is_inside(cell) == side && !is_reached[cell]) walk_.inside[cell] = 1 - walk_.inside[cell];
     }
 
     const ImageCells& cells_;

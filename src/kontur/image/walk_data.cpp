@@ -79,8 +79,8 @@ public:
             const double above = shell.radii * radius_mm, step = above / kStepsToShell;
             std::vector<PointConstraint> all = between_depths(above, above + step, step);
             std::erase_if(all, [&](const PointConstraint& one) { return !may_tell_outside(before, one.position); });
-            const std::vector<PointConstraint> kept = some(all, shell.places, frame);
-            data.insert(data.end(), kept.begin(), kept.end());
+            const std::vector<PointConstraint> selection = some(all, shell.places, frame);
+            data.insert(data.end(), selection.begin(), selection.end());
         }
         return data;
     }
@@ -172,9 +172,9 @@ private:
             number.emplace(std::array{one.position.x, one.position.y, one.position.z}, places.size());
             places.push_back(one.position);
         }
-        std::vector<PointConstraint> kept;
-        for (const Vec3& p : spread(places, most, frame)) kept.push_back(all[number.at({p.x, p.y, p.z})]);
-        return kept;
+        std::vector<PointConstraint> selection;
+        for (const Vec3& p : spread(places, most, frame)) selection.push_back(all[number.at({p.x, p.y, p.z})]);
+        return selection;
     }
 
     const VoxelWalk& walk_;

@@ -27,11 +27,11 @@ struct FitDepths {
     const CellDepths& depths;
 };
 
-/// What a walk tells a fit: how deep the cells on both sides of its surface are below it, by where the probability passes
-/// one half, with a noise of .03 cells where it falls steeply and more where it does not; that a surface which the contours
-/// alone have elsewhere is not there; and that in drawn planes f stays what it was, where the walk's surface comes near
-/// them beside the contours; and farther outside what kOutsideShells says. The result
-/// refers to the walk and the fit.
+/// What a walk tells a fit. Cells on both sides of its surface have depths, by where the probability
+/// passes one half; their noise is .03 cells where it falls steeply, else more. A surface that the
+/// contours alone have elsewhere is not there. In drawn planes f stays as it was, where the walk's surface
+/// comes near them beside the contours. Farther outside hold kOutsideShells. The result refers to the walk
+/// and the fit.
 ImageData walk_data(const WalkDepths& walk, const FitDepths& alone, const Drawing& drawing, const WalkDataOptions& options,
                     const Work& work = {});
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kMostOnContours = 0.05;  // voxels: f changes no more at drawn points
 constexpr double kMostStray = 2.5;        // cells: no farther from the walk's surface
-constexpr double kMostInPlanes = 1;       // cells: no farther from the contours in drawn planes
 
 /// From one attempt to the next less is told near the contours, and less exactly.
 constexpr WalkDataOptions kAttempts[] = {{}, {.off_contours = 2, .noise = 4}};
@@ -38,7 +37,7 @@ bool comes_through_planes(const SurfaceDepths& now, const SurfaceDepths& alone, 
     std::vector<Vec3> places;
     for (std::size_t n = 0; n < now.depths.depth_mm.size(); ++n)
         if (now.depths.is_inside(n) != alone.depths.is_inside(n) &&
-            is_longer(std::abs(alone.depths.depth_mm[n]), kMostInPlanes, ground.cells) &&
+            is_longer(std::abs(alone.depths.depth_mm[n]), 1, ground.cells) &&
             ground.walls.is_in_plane(ground.cells.center(n), half_edges))
             places.push_back(ground.cells.center(n));
     std::vector<double> before(places.size()), after(places.size());
@@ -56,13 +55,13 @@ struct SurfaceCells {
 };
 
 SurfaceCells surface_cells(const CellDepths& now, const CellDepths& alone, const VoxelWalk& walk, const ImageCells& cells) {
-    SurfaceCells found;
+    SurfaceCells result;
     for (const std::uint32_t cell : walk.band) {
         if (std::abs(static_cast<double>(now.depth_mm[cell])) > cells.edge_mm()) continue;
-        found.places.push_back(cells.center(cell));
-        found.most_mm = std::max(found.most_mm, std::abs(static_cast<double>(alone.depth_mm[cell])));
+        result.places.push_back(cells.center(cell));
+        result.most_mm = std::max(result.most_mm, std::abs(static_cast<double>(alone.depth_mm[cell])));
     }
-    return found;
+    return result;
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 namespace kontur {
 
-/// The drawn planes as walls: in a plane where everything was drawn no surface comes through beside the contours. Beyond the
-/// ends of a stack of parallel planes there are walls too, where the image may truthfully show that something goes on (the
-/// next vertebra) and only the one who drew knows where the object ends.
+/// The drawn planes as walls. In a plane where everything was drawn, no surface comes through beside the contours. There are
+/// also walls beyond the ends of a stack of parallel planes. There the image may rightly show that something goes on, such
+/// as the next vertebra, but only the person who drew knows where the object ends.
 class Walls {
 public:
     /// Planes with an open contour are none: they do not show everything.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "kontur/image/held_out_errors.h"
 #include "kontur/sampling/rise.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/section.h"
@@ -18,7 +19,6 @@ namespace {
 // beside the drawing do not (docs/decisions/0014-walk-on-voxels.md).
 constexpr Rise kSureAlone{1 + 1e-6, 2}, kMendedAlone{0.05, 0.15};
 constexpr Rise kSure{0.0228, 0.9772};  // probabilities: two standard deviations
-constexpr std::size_t kLeastPlanesTelling = 3;
 
 /// The mean in its standard errors.
 double sureness(const std::vector<double>& gains) {
@@ -35,8 +35,8 @@ double probability(double mean) { return kSure.at(0.5 * std::erfc(-mean / std::n
 
 }  // namespace
 
-WrongCells count_wrong(const ContourSet& left_out, const ImageCells& cells, const CellDepths& alone, const CellDepths& moved,
-                       const VoxelWalk& walk) {
+WrongCells count_wrong(const ContourSet& left_out, const ImageCells& cells, const CellDepths& by_contours,
+                       const CellDepths& by_movement, const VoxelWalk& by_walk) {
     WrongCells wrong;
     const bool is_open = std::any_of(left_out.contours.begin(), left_out.contours.end(),
                                      [](const Contour& contour) { return !contour.closed; });
@@ -50,11 +50,11 @@ WrongCells count_wrong(const ContourSet& left_out, const ImageCells& cells, cons
     for (std::size_t n = 0; n < cells.looks.size(); ++n) {
         const Vec3 p = cells.center(n);
         if (std::abs(section.plane.distance_to(p)) > reach) continue;
-        const bool drawn = search.contains(section.plane.to_uv(p));
-        wrong.drawn += drawn;
-        wrong.by_contours += alone.is_inside(n) != drawn;
-        wrong.by_movement += moved.is_inside(n) != drawn;
-        wrong.by_walk += walk.is_inside(n) != drawn;
+        const bool is_drawn = search.contains(section.plane.to_uv(p));
+        wrong.inside += is_drawn;
+        wrong.by_contours += by_contours.is_inside(n) != is_drawn;
+        wrong.by_movement += by_movement.is_inside(n) != is_drawn;
+        wrong.by_walk += by_walk.is_inside(n) != is_drawn;
     }
     return wrong;
 }
@@ -65,7 +65,7 @@ WrongCells sum(std::span<const WrongCells> planes) {
         all.by_contours += plane.by_contours;
         all.by_movement += plane.by_movement;
         all.by_walk += plane.by_walk;
-        all.drawn += plane.drawn;
+        all.inside += plane.inside;
     }
     return all;
 }
@@ -73,14 +73,14 @@ WrongCells sum(std::span<const WrongCells> planes) {
 double walk_weight(std::span<const WrongCells> planes, double moving) {
     std::vector<double> over_alone, over_base;
     for (const WrongCells& plane : planes) {
-        if (plane.drawn == 0) continue;
+        if (plane.inside == 0) continue;
         over_alone.push_back(plane.by_contours - plane.by_walk);
         over_base.push_back(std::lerp(plane.by_contours, plane.by_movement, moving) - plane.by_walk);
     }
-    if (over_alone.size() < kLeastPlanesTelling) return 0;
+    if (over_alone.size() < kFewestPlanes) return 0;
     const WrongCells all = sum(planes);
-    const double mended = all.by_contours > 0 ? 1 - all.by_walk / all.by_contours : 0;
-    const double proof = std::lerp(kSureAlone.at(sureness(over_alone)) * kMendedAlone.at(mended), 1.0, moving);
+    const double gain = all.by_contours > 0 ? 1 - all.by_walk / all.by_contours : 0;
+    const double proof = std::lerp(kSureAlone.at(sureness(over_alone)) * kMendedAlone.at(gain), 1.0, moving);
     return proof * probability(sureness(over_alone)) * probability(sureness(over_base));
 }
 

@@ -12,20 +12,20 @@ struct WrongCells {
     double by_contours = 0;  ///< the surface through the contours of the other planes
     double by_movement = 0;  ///< the same, moved to where the image shows the border
     double by_walk = 0;      ///< the random walk
-    double drawn = 0;        ///< of all cells in the plane those inside what was drawn; 0: the plane tells nothing
+    double inside = 0;       ///< of all cells in the plane those inside what was drawn; 0: the plane tells nothing
 };
 
 /// `left_out`: the contours of the plane. Where one of them is open nothing is told.
-WrongCells count_wrong(const ContourSet& left_out, const ImageCells& cells, const CellDepths& alone, const CellDepths& moved,
-                       const VoxelWalk& walk);
+WrongCells count_wrong(const ContourSet& left_out, const ImageCells& cells, const CellDepths& by_contours,
+                       const CellDepths& by_movement, const VoxelWalk& by_walk);
 
 WrongCells sum(std::span<const WrongCells> planes);
 
-/// How much the walk counts in the result, the rest being the surface through the contours, moved as far as `moving`, 0 to
-/// 1: the probability that it has fewer wrong cells than that, times the one that it has fewer than the contours alone, each
-/// by the mean over planes, which are independent, as their cells are not. As far as moving has not shown yet that the image
-/// helps, the walk has to: by one to two standard errors, and by a tenth of all wrong cells, give or take half of that. 0
-/// where fewer than three planes tell.
+/// How much the walk counts in the result, from 0 to 1. The rest is the surface through the contours, moved as far as
+/// `moving`, 0 to 1. The weight is the probability that the walk has fewer wrong cells than that surface, times the
+/// probability that it has fewer than the contours alone. Both are of the mean over planes, which are independent; cells are
+/// not. Without help shown by moving, the walk has to show it: by one to two standard errors, and by about a tenth of all
+/// wrong cells. 0 where fewer than three planes tell.
 double walk_weight(std::span<const WrongCells> planes, double moving);
 
 }  // namespace kontur

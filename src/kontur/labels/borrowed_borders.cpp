@@ -31,14 +31,14 @@ std::vector<double> distances_mm(const ImplicitFunction& function, const std::ve
             at[n] -= (values[n] - falls[n]) / std::max(dot(slope, slope), kRidgeSlope * kRidgeSlope) * slope;
         }
     }
-    std::vector<double> found(at.size());
-    for (std::size_t n = 0; n < at.size(); ++n) found[n] = distance(at[n], places_mm[n]);
-    return found;
+    std::vector<double> result(at.size());
+    for (std::size_t n = 0; n < at.size(); ++n) result[n] = distance(at[n], places_mm[n]);
+    return result;
 }
 
-bool is_close(const Vec3& point, double distance_mm, const ContourSet& drawn) {
+bool is_close(const Vec3& point, double distance_mm, const ContourSet& set) {
     double squared = std::numeric_limits<double>::infinity();
-    for (const Contour& contour : drawn.contours)
+    for (const Contour& contour : set.contours)
         for (const Vec3& p : contour.points) squared = std::min(squared, dot(p - point, p - point));
     return distance_mm < kClose * std::sqrt(squared);
 }
@@ -53,14 +53,14 @@ struct Beside {
 std::vector<std::optional<Beside>> neighbours_at(const std::vector<Vec3>& points, std::size_t owner,
                                                  const Neighbours& neighbours, const Work& work) {
     std::vector<double> nearest = depths_mm(*neighbours.all, points, work);
-    std::vector<std::optional<Beside>> found(points.size());
+    std::vector<std::optional<Beside>> result(points.size());
     for (std::size_t other = 0; other < neighbours.functions.size(); ++other) {
         if (other == owner) continue;
         const std::vector<double> distances = distances_mm(*neighbours.functions[other], points, work);
         for (std::size_t n = 0; n < points.size(); ++n)
-            if (distances[n] < nearest[n]) nearest[n] = distances[n], found[n] = {other, distances[n]};
+            if (distances[n] < nearest[n]) nearest[n] = distances[n], result[n] = {other, distances[n]};
     }
-    return found;
+    return result;
 }
 
 }  // namespace

@@ -18,10 +18,10 @@ struct Neighbours {
     const ImplicitFunction* all = nullptr;           ///< of their union
 };
 
-/// For each structure the points of borders that a neighbour alone has drawn: points of the neighbour's contours in planes
-/// in which the structure has none, that lie nearer to the structure's surface than to that of the union and than to any
-/// other's, and nearer than three quarters as far as what was drawn of it. There the surface of the one is that of the
-/// other.
+/// For each structure the points of borders that a neighbour alone has drawn. They are points of the neighbour's contours
+/// in planes in which the structure has none. They lie nearer to the structure's surface than to the union's or any
+/// other's. They lie nearer to it than three quarters of the distance to the structure's contours. There both have one
+/// surface.
 std::vector<std::vector<SurfacePoint>> borrowed_borders(const Neighbours& neighbours, const Work& work = {});
 
 }  // namespace kontur

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/labels/boxed_mask.h"
+#include "kontur/shape/inside_box.h"
 
 #include <algorithm>
 
@@ -33,13 +34,11 @@ BoxedMask part_of(const BoxedMask& object, const IndexBox& box, const Grid& grid
 }  // namespace
 
 BoxedMask trimmed(const BoxedMask& object, const Grid& grid) {
-    std::optional<IndexBox> found;
-    std::size_t n = 0;
-    for_each_voxel(object.box, [&](const Index3& at) {
-        if (!object.mask.values[n++]) return;
-        found = found ? box_around(*found, {at, at}) : IndexBox{at, at};
-    });
-    return part_of(object, found.value_or(IndexBox{object.box.low, object.box.low}), grid);
+    std::optional<IndexBox> box =
+        inside_box(object.box.size(), std::span(object.mask.values), [](std::uint8_t v) { return v != 0; });
+    if (!box) box = IndexBox{};
+    for (int axis = 0; axis < 3; ++axis) box->low[axis] += object.box.low[axis], box->high[axis] += object.box.low[axis];
+    return part_of(object, *box, grid);
 }
 
 BoxedMask widened(const BoxedMask& object, const IndexBox& box, const Grid& grid) { return part_of(object, box, grid); }
@@ -56,9 +55,9 @@ std::vector<Index3> shared_voxels(const BoxedMask& a, const BoxedMask& b) {
 bool have_common_face(const BoxedMask& a, const BoxedMask& b) {
     for (int axis = 0; axis < 3; ++axis)
         for (const std::int64_t step : {-1, 1}) {
-            IndexBox moved = b.box;  // where a voxel has one of b's beside it
-            moved.low[axis] -= step, moved.high[axis] -= step;
-            const auto common = common_box(a.box, moved);
+            IndexBox beside = b.box;  // where a voxel has one of b's beside it
+            beside.low[axis] -= step, beside.high[axis] -= step;
+            const auto common = common_box(a.box, beside);
             if (!common) continue;
             for (std::int64_t k = common->low.k; k <= common->high.k; ++k)
                 for (std::int64_t j = common->low.j; j <= common->high.j; ++j)

@@ -8,11 +8,13 @@
 namespace kontur {
 namespace {
 
-void extend(LabelBox& found, std::int64_t first, std::int64_t last, std::int64_t j, std::int64_t k) {
-    if (found.voxels == 0) found.box = {{first, j, k}, {last, j, k}};
-    found.box.low = {std::min(found.box.low.i, first), std::min(found.box.low.j, j), std::min(found.box.low.k, k)};
-    found.box.high = {std::max(found.box.high.i, last), std::max(found.box.high.j, j), std::max(found.box.high.k, k)};
-    found.voxels += last - first + 1;
+void extend(LabelBox& label_box, std::int64_t first, std::int64_t last, std::int64_t j, std::int64_t k) {
+    if (label_box.voxels == 0) label_box.box = {{first, j, k}, {last, j, k}};
+    label_box.box.low = {std::min(label_box.box.low.i, first), std::min(label_box.box.low.j, j),
+                         std::min(label_box.box.low.k, k)};
+    label_box.box.high = {std::max(label_box.box.high.i, last), std::max(label_box.box.high.j, j),
+                          std::max(label_box.box.high.k, k)};
+    label_box.voxels += last - first + 1;
 }
 
 }  // namespace
@@ -20,7 +22,7 @@ void extend(LabelBox& found, std::int64_t first, std::int64_t last, std::int64_t
 std::map<std::int64_t, LabelBox> label_boxes(const Image& labels, std::size_t max_labels) {
     check_image(labels);
     const Index3 size = labels.grid.size;
-    std::map<std::int64_t, LabelBox> found;
+    std::map<std::int64_t, LabelBox> boxes;
     const auto look = [&](const auto& samples) {
         using Sample = typename std::decay_t<decltype(samples)>::value_type;
         const Sample* row = samples.data();
@@ -34,13 +36,13 @@ std::map<std::int64_t, LabelBox> label_boxes(const Image& labels, std::size_t ma
                     if constexpr (std::is_floating_point_v<Sample>) {
                         if (!(std::trunc(value) == value && std::abs(value) < 9e15F)) return false;
                     }
-                    extend(found[static_cast<std::int64_t>(value)], first, i - 1, j, k);
-                    if (found.size() > max_labels) return false;
+                    extend(boxes[static_cast<std::int64_t>(value)], first, i - 1, j, k);
+                    if (boxes.size() > max_labels) return false;
                 }
         return true;
     };
     if (!std::visit(look, labels.samples)) count_labels(labels, max_labels);  // says what is wrong
-    return found;
+    return boxes;
 }
 
 Mask label_mask(const Image& labels, std::int64_t label, const IndexBox& box) {

@@ -17,9 +17,9 @@ namespace {
 constexpr std::uint8_t kExplained = 8;
 static_assert((kExplained & (kShortest | kSolid)) == 0);
 
-class Painted {
+class SliceSearch {
 public:
-    explicit Painted(const Mask& mask) : size_(mask.grid.size), known_(shortest_runs(mask)) {}
+    explicit SliceSearch(const Mask& mask) : size_(mask.grid.size), known_(shortest_runs(mask)) {}
 
     std::vector<PaintedSlice> slices() {
         count_votes();
@@ -70,9 +70,9 @@ private:
 
     /// The axis for which a voxel counts; -1 for none: it isn't painted, or several are as short. Solids may be cut along
     /// any axis: along the one of the label's other slices.
-    int vote(std::uint8_t known) const {
-        if (known & kSolid && main_axis_ >= 0) return main_axis_;
-        switch (known & kShortest) {
+    int vote(std::uint8_t bits) const {
+        if (bits & kSolid && main_axis_ >= 0) return main_axis_;
+        switch (bits & kShortest) {
             case 1:
                 return 0;
             case 2:
@@ -108,14 +108,14 @@ private:
     }
 
     bool is_mostly_solid() const {
-        const auto painted = std::count_if(known_.begin(), known_.end(), [](std::uint8_t known) { return known != 0; });
-        return 2 * std::count_if(known_.begin(), known_.end(), [](std::uint8_t known) { return known & kSolid; }) > painted;
+        const auto painted = std::count_if(known_.begin(), known_.end(), [](std::uint8_t bits) { return bits != 0; });
+        return 2 * std::count_if(known_.begin(), known_.end(), [](std::uint8_t bits) { return bits & kSolid; }) > painted;
     }
 
     /// Where most is solid, thin ends of it are no slices of other directions.
     void main_axis_alone() {
-        for (std::uint8_t& known : known_)
-            if (known) known = static_cast<std::uint8_t>(1 << main_axis_);
+        for (std::uint8_t& bits : known_)
+            if (bits) bits = static_cast<std::uint8_t>(1 << main_axis_);
     }
 
     void take_slices() {
@@ -226,13 +226,12 @@ private:
         for (std::int64_t k = 0, n = 0; k < size_.k; ++k)
             for (std::int64_t j = 0; j < size_.j; ++j)
                 for (std::int64_t i = 0; i < size_.i; ++i, ++n) {
-                    const std::uint8_t known = known_[static_cast<std::size_t>(n)];
-                    if (known == 0 || known & kExplained) continue;
+                    const std::uint8_t bits = known_[static_cast<std::size_t>(n)];
+                    if (bits == 0 || bits & kExplained) continue;
                     const Index3 at{i, j, k};
                     const bool beside = is_in_section(at, -1) || is_in_section(at, 1);
-                    add_voxel(beside
-                                  ? main_axis_
-                                  : *std::find_if(order.begin(), order.end(), [&](int axis) { return known >> axis & 1; }),
+                    add_voxel(beside ? main_axis_
+                                     : *std::find_if(order.begin(), order.end(), [&](int axis) { return bits >> axis & 1; }),
                               at);
                 }
     }
@@ -266,7 +265,7 @@ std::array<int, 2> slice_axes(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ?
 
 std::vector<PaintedSlice> find_painted_slices(const Mask& mask) {
     check_mask(mask);
-    return Painted(mask).slices();
+    return SliceSearch(mask).slices();
 }
 
 }  // namespace kontur

@@ -23,13 +23,13 @@ std::array<int, 2> slice_axes(int axis);
 /// The slices of which a sparse mask is made: painted across one axis of the grid or across several, single ones or several
 /// side by side, whole or in part. Sorted by axis and index.
 ///
-/// A slice is short across and long within. Each voxel counts for the axis along which its run of painted voxels is the
-/// shortest. Slices are taken in the order of how many voxels count for them that no slice explains so far; a slice explains
-/// what is connected with these in it, hardly farther away than its own thickness. So the traces that slices of other
-/// directions leave in it do not belong to its section. Within solids, three voxels thick along all axes, voxels count for
-/// the axis for which most others do. (The morphological interpolation of Zukic et al., 2016, asks each
-/// voxel alone whether its neighbours across are empty and those within are not, and so misses slices side by side.)
-/// Time is linear in the grid's voxels; takes a byte for each of them and two for each painted one.
+/// A slice is short across and long within. Each voxel counts for the axis along which its run of painted voxels is
+/// shortest. Slices are taken by the number of voxels that count for them and that no slice explains yet. A slice explains
+/// what is connected with these in it, hardly farther away than its own thickness. So traces of slices in other directions
+/// do not belong to its section. Within solids, three voxels thick along all axes, voxels count for the axis of most
+/// others. (The interpolation of Zukic et al., 2016, asks each voxel alone whether its neighbours across are empty, and so
+/// misses slices side by side.) Linear in the grid's voxels in time; one byte for each of them and two for each painted
+/// one.
 std::vector<PaintedSlice> find_painted_slices(const Mask& mask);
 
 }  // namespace kontur

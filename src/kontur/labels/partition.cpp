@@ -85,7 +85,7 @@ private:
 
     StructurePair pair_of(std::size_t a, std::size_t b, std::size_t both) const {
         const auto voxels = static_cast<std::int64_t>(both);
-        if (const StructurePair* given = rule(a, b)) return {given->first, given->second, given->relation, voxels, true};
+        if (const StructurePair* known = rule(a, b)) return {known->first, known->second, known->relation, voxels, true};
         const std::int64_t in_a = alone_voxels_[a], in_b = alone_voxels_[b];
         const double share =
             static_cast<double>(both) / static_cast<double>(std::max<std::int64_t>(std::min(in_a, in_b), 1));
@@ -181,10 +181,10 @@ private:
             return true;
         };
         const auto owners = owners_of_gaps(structures, centers_mm(gaps), may_own, work_);
-        std::vector<std::vector<Index3>> given(group.size());
+        std::vector<std::vector<Index3>> voxels_of_member(group.size());
         for (std::size_t n = 0; n < gaps.size(); ++n)
-            if (owners[n]) given[*owners[n]].push_back(gaps[n]), ++result_.closed_voxels;
-        for (std::size_t member = 0; member < group.size(); ++member) give(group[member], given[member]);
+            if (owners[n]) voxels_of_member[*owners[n]].push_back(gaps[n]), ++result_.closed_voxels;
+        for (std::size_t member = 0; member < group.size(); ++member) give(group[member], voxels_of_member[member]);
     }
 
     bool exclude(std::size_t a, std::size_t b) const {
@@ -208,12 +208,12 @@ private:
 
 void check_rules(std::span<const StructurePair> rules, std::size_t structures) {
     const auto refuse = [](const std::string& sentence) { throw Error(ErrorKind::invalid_input, sentence); };
-    std::map<std::pair<std::size_t, std::size_t>, int> seen;
+    std::map<std::pair<std::size_t, std::size_t>, int> counts;
     for (const StructurePair& rule : rules) {
         if (rule.first >= structures || rule.second >= structures || rule.first == rule.second)
             refuse(fmt::format("a rule is about the structures {} and {}; there are {}, counted from 0", rule.first,
                                rule.second, structures));
-        if (++seen[std::minmax(rule.first, rule.second)] > 1)
+        if (++counts[std::minmax(rule.first, rule.second)] > 1)
             refuse(fmt::format("2 rules are about the structures {} and {}; 1 is possible", rule.first, rule.second));
     }
 }

@@ -35,29 +35,29 @@ bool has_like(const Samples& samples, const Grid& grid, const Index3& at) {
 
 template <class Samples>
 std::unordered_map<std::int64_t, Voxels> look(const Samples& samples, const Grid& grid) {
-    std::unordered_map<std::int64_t, Voxels> found;
+    std::unordered_map<std::int64_t, Voxels> by_label;
     const std::int64_t rows = grid.size.j * grid.size.k;
     const std::int64_t step = 1 + rows * grid.size.i / kLookedAt;
     for (std::int64_t row = 0; row < rows; row += step)
         for (Index3 at{0, row % grid.size.j, row / grid.size.j}; at.i < grid.size.i; ++at.i) {
             const auto value = samples[grid.offset(at.i, at.j, at.k)];
             if (value == 0) continue;
-            Voxels& voxels = found[static_cast<std::int64_t>(value)];
+            Voxels& voxels = by_label[static_cast<std::int64_t>(value)];
             ++voxels.all;
             voxels.lone += !has_like(samples, grid, at);
         }
-    return found;
+    return by_label;
 }
 
 }  // namespace
 
 std::optional<std::string> why_no_labels(const Image& labels) {
-    const auto found = std::visit([&](const auto& samples) { return look(samples, labels.grid); }, labels.samples);
-    const auto scattered =
-        std::count_if(found.begin(), found.end(), [](const auto& one) { return 2 * one.second.lone > one.second.all; });
-    if (2 * static_cast<std::size_t>(scattered) <= found.size()) return std::nullopt;
+    const auto by_label = std::visit([&](const auto& samples) { return look(samples, labels.grid); }, labels.samples);
+    const auto scattered = std::count_if(by_label.begin(), by_label.end(),
+                                         [](const auto& one) { return 2 * one.second.lone > one.second.all; });
+    if (2 * static_cast<std::size_t>(scattered) <= by_label.size()) return std::nullopt;
     return fmt::format("{} of its {} labels are scattered: most of their voxels have no neighbour with the same label",
-                       scattered, found.size());
+                       scattered, by_label.size());
 }
 
 void check_no_image(const Image& labels, std::size_t count) {

@@ -71,7 +71,7 @@ std::vector<double> smoothed(const std::vector<double>& values, std::int64_t cou
 /// The parts, painted or not, of which no voxel has all four neighbours in it: at most two voxels wide.
 std::vector<std::uint8_t> thin_parts(const std::vector<std::uint8_t>& section, const IsolineLattice& lattice) {
     std::vector<std::uint8_t> thin(section.size(), 1);
-    std::vector<std::size_t> reached;
+    std::vector<std::size_t> front;
     const auto for_neighbours = [&](std::size_t n, std::int64_t corners, const auto& visit) {
         const std::int64_t a = static_cast<std::int64_t>(n) % lattice.columns,
                            b = static_cast<std::int64_t>(n) / lattice.columns;
@@ -83,11 +83,11 @@ std::vector<std::uint8_t> thin_parts(const std::vector<std::uint8_t>& section, c
     for (std::size_t n = 0; n < section.size(); ++n) {
         bool is_core = true;
         for_neighbours(n, 0, [&](std::size_t other) { is_core = is_core && section[other] == section[n]; });
-        if (is_core) thin[n] = 0, reached.push_back(n);
+        if (is_core) thin[n] = 0, front.push_back(n);
     }
-    for (std::size_t next = 0; next < reached.size(); ++next)
-        for_neighbours(reached[next], 1, [&](std::size_t other) {
-            if (thin[other] && section[other] == section[reached[next]]) thin[other] = 0, reached.push_back(other);
+    for (std::size_t next = 0; next < front.size(); ++next)
+        for_neighbours(front[next], 1, [&](std::size_t other) {
+            if (thin[other] && section[other] == section[front[next]]) thin[other] = 0, front.push_back(other);
         });
     return thin;
 }

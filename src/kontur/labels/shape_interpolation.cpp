@@ -37,29 +37,30 @@ ShapeInterpolation::ShapeInterpolation(const Grid& grid, const PaintedSlice& low
       low_mm_(field_of(grid, low)),
       high_mm_(field_of(grid, high)) {
     thickness_mm_ = low_mm_.thickest_mm() + high_mm_.thickest_mm();
-    Strands found = find_strands(grid, low, high);
-    strands_ = std::move(found.strands);
-    is_all_strands_ = is_empty(found.low_rest) && is_empty(found.high_rest);
+    Strands strands = find_strands(grid, low, high);
+    strands_ = std::move(strands.strands);
+    is_all_strands_ = is_empty(strands.low_rest) && is_empty(strands.high_rest);
     if (strands_.empty()) return;
-    leave(std::move(found.low_rest), grid, low, low_mm_);
-    leave(std::move(found.high_rest), grid, high, high_mm_);
+    leave(std::move(strands.low_rest), grid, low, low_mm_);
+    leave(std::move(strands.high_rest), grid, high, high_mm_);
 }
 
 ShapeInterpolation::Depth ShapeInterpolation::depth(const Index3& at) const {
     const auto [u, v] = slice_axes(axis_);
     const double along = static_cast<double>(at[axis_] - low_) / static_cast<double>(high_ - low_);
     const auto place_u = static_cast<double>(at[u]), place_v = static_cast<double>(at[v]);
-    Depth found{-std::numeric_limits<double>::infinity(), 0};
+    Depth result{-std::numeric_limits<double>::infinity(), 0};
     if (!is_all_strands_) {
         const double low = low_mm_.at(place_u, place_v), high = high_mm_.at(place_u, place_v);
-        found.mm = std::lerp(low, high, along) / std::hypot(1.0, (high - low) / gap_mm_);
-        if (low > 0 && high > 0) found.belief = 1;
+        result.mm = std::lerp(low, high, along) / std::hypot(1.0, (high - low) / gap_mm_);
+        if (low > 0 && high > 0) result.belief = 1;
     }
     for (const Strand& strand : strands_) {
         if (!is_all_strands_ && !strand.is_near(along, place_u, place_v)) continue;
-        if (const double mm = strand.depth_mm(along, place_u, place_v, gap_mm_); mm > found.mm) found = {mm, strand.belief};
+        if (const double mm = strand.depth_mm(along, place_u, place_v, gap_mm_); mm > result.mm)
+            result = {mm, strand.belief};
     }
-    return found;
+    return result;
 }
 
 double ShapeInterpolation::trust() const {

@@ -24,20 +24,20 @@ struct Part {
 /// The connected parts of a section.
 std::vector<Part> parts_of(const Sections& section, std::int64_t width) {
     const std::int64_t height = static_cast<std::int64_t>(section.size()) / width;
-    Sections left = section;
+    Sections rest = section;
     std::vector<Part> parts;
-    for (std::size_t first = 0; first < left.size(); ++first) {
-        if (!left[first]) continue;
+    for (std::size_t first = 0; first < rest.size(); ++first) {
+        if (!rest[first]) continue;
         std::vector<std::size_t>& voxels = parts.emplace_back().voxels;
-        voxels.push_back(first), left[first] = 0;
+        voxels.push_back(first), rest[first] = 0;
         for (std::size_t n = 0; n < voxels.size(); ++n) {
             const auto place = static_cast<std::int64_t>(voxels[n]);
             const std::int64_t u = place % width, v = place / width;
             for (std::int64_t b = std::max<std::int64_t>(v - 1, 0); b <= std::min(v + 1, height - 1); ++b)
                 for (std::int64_t a = std::max<std::int64_t>(u - 1, 0); a <= std::min(u + 1, width - 1); ++a) {
                     const auto next = static_cast<std::size_t>(a + width * b);
-                    if (!left[next]) continue;
-                    left[next] = 0, voxels.push_back(next);
+                    if (!rest[next]) continue;
+                    rest[next] = 0, voxels.push_back(next);
                 }
         }
     }
@@ -133,7 +133,7 @@ double Strand::depth_mm(double along, double u, double v, double gap_mm) const {
 }
 
 Strands find_strands(const Grid& grid, const PaintedSlice& low, const PaintedSlice& high) {
-    Strands found{{}, low.section, high.section};
+    Strands strands{{}, low.section, high.section};
     const std::vector<Part> below = loose_parts(grid, low, high), above = loose_parts(grid, high, low);
     const std::int64_t width = grid.size[slice_axes(low.axis)[0]];
     std::vector<double> nearness(below.size() * above.size());
@@ -146,10 +146,11 @@ Strands find_strands(const Grid& grid, const PaintedSlice& low, const PaintedSli
         if (largest(below.size(), [&](std::size_t n) { return nearness[n * above.size() + b]; }) != a) continue;
         const double belief = belief_in(below[a], above[b], nearness[a * above.size() + b], low, high);
         if (belief <= 0) continue;
-        found.strands.push_back({below[a].field, above[b].field, above[b].u - below[a].u, above[b].v - below[a].v, belief});
-        take_away(below[a], found.low_rest), take_away(above[b], found.high_rest);
+        strands.strands.push_back(
+            {below[a].field, above[b].field, above[b].u - below[a].u, above[b].v - below[a].v, belief});
+        take_away(below[a], strands.low_rest), take_away(above[b], strands.high_rest);
     }
-    return found;
+    return strands;
 }
 
 }  // namespace kontur

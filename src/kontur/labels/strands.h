@@ -28,9 +28,9 @@ struct Strands {
     std::vector<std::uint8_t> low_rest, high_rest;  ///< the sections without the strands' parts
 };
 
-/// Parts (8-connected) of two sections of which hardly anything lies over the other section, each the nearest such part to
-/// the other one. `belief` fades with what they have in common, from nothing to 15 % of the smaller one, and where the room
-/// between them is more than half as wide as the thinner one; from one and a half of its widths on these are two bodies.
+/// Parts (8-connected) of two sections that hardly lie over the other section, each the nearest such part to the other one.
+/// `belief` fades with their overlap, from none to 15 % of the smaller one. It also fades where the room between them is
+/// more than half as wide as the thinner one; from one and a half of its widths on these are two bodies.
 Strands find_strands(const Grid& grid, const PaintedSlice& low, const PaintedSlice& high);
 
 }  // namespace kontur

@@ -15,8 +15,10 @@
 namespace kontur {
 namespace {
 
+constexpr double kNear = 0.02;  // mm; files round
+
 bool is_same(const Plane& a, const Plane& b) {
-    constexpr double kParallel = 1 - 1e-6, kNear = 0.02;  // mm; files round
+    constexpr double kParallel = 1 - 1e-6;
     return std::abs(dot(a.normal, b.normal)) > kParallel && std::abs(a.distance_to(b.origin)) < kNear;
 }
 
@@ -31,10 +33,10 @@ std::vector<Plane> planes_of(std::span<const ContourSet* const> structures) {
 }
 
 ContourSet closed_contours_in(const ContourSet& set, const Plane& plane) {
-    ContourSet found;
+    ContourSet outlines;
     for (const Contour& contour : set.contours)
-        if (contour.closed && is_same(plane, contour.plane)) found.contours.push_back(contour);
-    return found;
+        if (contour.closed && is_same(plane, contour.plane)) outlines.contours.push_back(contour);
+    return outlines;
 }
 
 bool lies_on_one_side(const ContourSet& set, const Plane& plane) {
@@ -42,7 +44,6 @@ bool lies_on_one_side(const ContourSet& set, const Plane& plane) {
     for (const Contour& contour : set.contours)
         for (const Vec3& p : contour.points)
             low = std::min(low, plane.distance_to(p)), high = std::max(high, plane.distance_to(p));
-    constexpr double kNear = 0.02;
     return low > -kNear || high < kNear;
 }
 
@@ -100,14 +101,14 @@ void space_out(Contour& contour, double spacing_mm) {
     for (std::size_t n = 0; n < contour.points.size(); ++n)
         length += distance(contour.points[n], contour.points[(n + 1) % contour.points.size()]);
     const double least = std::min(spacing_mm, length / (2 * kLeast));
-    std::vector<Vec3> kept;
+    std::vector<Vec3> corners;
     double since = least;
     for (std::size_t n = 0; n < contour.points.size(); ++n) {
         if (n > 0) since += distance(contour.points[n - 1], contour.points[n]);
         if (since < least) continue;
-        kept.push_back(contour.points[n]), since = 0;
+        corners.push_back(contour.points[n]), since = 0;
     }
-    if (kept.size() >= kLeast) contour.points = std::move(kept);
+    if (corners.size() >= kLeast) contour.points = std::move(corners);
 }
 
 }  // namespace

@@ -45,15 +45,15 @@ std::vector<Ring> rings_of(std::span<const Section* const> sections) {
 std::vector<Vec3> offsets(const Ring& ring, const Section& section) {
     constexpr std::size_t kPlaces = 12;
     constexpr double kInside = 0.6;  // of the way from the middle to the outline
-    std::vector<Vec3> found;
+    std::vector<Vec3> result;
     for (std::size_t o = 0; o < section.outlines.size(); ++o) {
         if (section.contours[o] != ring.contour) continue;
         const Polygon2& outline = section.outlines[o];
         const std::size_t stride = outline.size() / kPlaces + 1;
         for (std::size_t i = 0; i < outline.size(); i += stride)
-            found.push_back(kInside * (section.plane.from_uv(outline[i]) - ring.middle));
+            result.push_back(kInside * (section.plane.from_uv(outline[i]) - ring.middle));
     }
-    return found;
+    return result;
 }
 
 /// The nearest ring ahead along `sign` times the normal.
@@ -92,18 +92,18 @@ Vec3 turned(const Vec3& v, const Vec3& from, const Vec3& to) {
 BentWays ways_between(const Ring& a, const Ring& b, const Section& section) {
     const Vec3 way = b.middle - a.middle;
     const double length = norm(way);
-    const Vec3 first = (dot(way, a.normal) < 0 ? -1.0 : 1.0) * a.normal, last = (dot(way, b.normal) < 0 ? -1.0 : 1.0) * b.normal;
+    const Vec3 first = (dot(way, a.normal) < 0 ? -1.0 : 1.0) * a.normal,
+               last = (dot(way, b.normal) < 0 ? -1.0 : 1.0) * b.normal;
     const std::vector<Vec3> places = offsets(a, section);
     BentWays ways{a.section, b.section, a.contour, b.contour, length, way / length, {}};
     ways.places.resize(places.size());
     for (std::size_t q = 0; q < kQuarters.size(); ++q) {
         const double t = kQuarters[q], s = 1 - t;
-        const Vec3 middle = s * s * (1 + 2 * t) * a.middle + t * t * (3 - 2 * t) * b.middle +
-                            length * t * s * (s * first - t * last);
+        const Vec3 middle =
+            s * s * (1 + 2 * t) * a.middle + t * t * (3 - 2 * t) * b.middle + length * t * s * (s * first - t * last);
         const Vec3 along = normalized(6 * t * s * way + length * (s * (1 - 3 * t) * first + t * (3 * t - 2) * last));
         const double scale = s + t * b.radius_mm / a.radius_mm;
-        for (std::size_t n = 0; n < places.size(); ++n)
-            ways.places[n][q] = middle + scale * turned(places[n], first, along);
+        for (std::size_t n = 0; n < places.size(); ++n) ways.places[n][q] = middle + scale * turned(places[n], first, along);
     }
     return ways;
 }
@@ -112,24 +112,24 @@ BentWays ways_between(const Ring& a, const Ring& b, const Section& section) {
 
 std::vector<std::pair<Ring, Ring>> ring_pairs(std::span<const Section* const> sections) {
     const std::vector<Ring> rings = rings_of(sections);
-    std::vector<std::pair<Ring, Ring>> found;
+    std::vector<std::pair<Ring, Ring>> result;
     for (std::size_t own = 0; own < rings.size(); ++own)
         for (const double sign : {1.0, -1.0}) {
             const auto next = next_ring(rings, own, sign);
             if (!next || *next < own) continue;
             const double back = dot(rings[own].middle - rings[*next].middle, rings[*next].normal) < 0 ? -1 : 1;
             if (next_ring(rings, *next, back) == own && may_be_one_tube(rings[own], rings[*next]))
-                found.emplace_back(rings[own], rings[*next]);
+                result.emplace_back(rings[own], rings[*next]);
         }
-    return found;
+    return result;
 }
 
 std::vector<BentWays> bent_ways(std::span<const PlaneLook> looks) {
     std::vector<const Section*> sections;
     for (const PlaneLook& look : looks) sections.push_back(look.section());
-    std::vector<BentWays> found;
-    for (const auto& [own, next] : ring_pairs(sections)) found.push_back(ways_between(own, next, *sections[own.section]));
-    return found;
+    std::vector<BentWays> result;
+    for (const auto& [own, next] : ring_pairs(sections)) result.push_back(ways_between(own, next, *sections[own.section]));
+    return result;
 }
 
 }  // namespace kontur

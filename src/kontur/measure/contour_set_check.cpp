@@ -29,8 +29,8 @@ struct Sound {
 };
 
 /// With nested contours as holes.
-struct Filled {
-    explicit Filled(ContourSet drawn) : set(std::move(drawn)), changes(apply_fill_rule(set, FillRule::even_odd)) {}
+struct FilledSet {
+    explicit FilledSet(ContourSet drawing) : set(std::move(drawing)), changes(apply_fill_rule(set, FillRule::even_odd)) {}
 
     ContourSet set;
     FillChanges changes;
@@ -256,9 +256,9 @@ private:
     /// Whether a contour of another, parallel plane lies over this one, no farther than three times its size.
     bool has_neighbour(std::size_t c) const {
         const Plane& plane = contour(c).plane;
-        const auto shadow = [&](const Contour& drawn) {
+        const auto shadow = [&](const Contour& line) {
             Box3 box;
-            for (const Vec3& p : drawn.points) {
+            for (const Vec3& p : line.points) {
                 const Point2 at = plane.to_uv(p);
                 box.extend({at[0], at[1], 0});
             }
@@ -316,14 +316,14 @@ private:
 
     /// Missing slices in stacks of parallel planes that are evenly spaced otherwise.
     void find_gaps() {
-        std::vector<bool> done(sections_.size());
+        std::vector<bool> is_done(sections_.size());
         for (std::size_t s = 0; s < sections_.size(); ++s) {
-            if (done[s]) continue;
+            if (is_done[s]) continue;
             const Plane& plane = sections_[s].plane;
             std::vector<double> heights;
             for (std::size_t t = s; t < sections_.size(); ++t)
                 if (std::abs(dot(plane.normal, sections_[t].plane.normal)) > 1 - 1e-6) {
-                    done[t] = true;
+                    is_done[t] = true;
                     heights.push_back(plane.distance_to(sections_[t].plane.origin));
                 }
             find_gaps_in_stack(plane, std::move(heights));
@@ -359,7 +359,7 @@ private:
     std::vector<Finding>& findings_;
     Box3 box_;
     double diameter_;
-    Filled filled_;
+    FilledSet filled_;
     std::vector<Section> sections_;
     double limit_;
     std::vector<Pair> duplicates_;

@@ -25,9 +25,9 @@ void answer(std::vector<OpenPixel>& open, const PlaceValues& values) {
     std::vector<Vec3> places;
     places.reserve(open.size());
     for (const OpenPixel& one : open) places.push_back(one.place);
-    std::vector<double> found(places.size());
-    values(places, found);
-    for (std::size_t n = 0; n < open.size(); ++n) open[n].sheet->values[open[n].pixel] = found[n];
+    std::vector<double> samples(places.size());
+    values(places, samples);
+    for (std::size_t n = 0; n < open.size(); ++n) open[n].sheet->values[open[n].pixel] = samples[n];
     open.clear();
 }
 

@@ -14,8 +14,8 @@ SectionFaultKind kind_of(const WrongRegion& region) {
 
 /// At the plane's largest region that nothing explains.
 SectionFault fault_of(const PlaneCheck& plane) {
-    const auto found = std::ranges::find_if(plane.regions, [](const WrongRegion& r) { return !r.is_explained; });
-    const WrongRegion& region = found == plane.regions.end() ? plane.regions.front() : *found;
+    const auto first = std::ranges::find_if(plane.regions, [](const WrongRegion& r) { return !r.is_explained; });
+    const WrongRegion& region = first == plane.regions.end() ? plane.regions.front() : *first;
     SectionFault fault{kind_of(region), region.position, {}, region.area_mm2 / plane.area_mm2};
     if (plane.contour) fault.contours.push_back(*plane.contour);
     return fault;
@@ -57,10 +57,10 @@ std::vector<SectionFault> faults(const SectionCheck& check) {
     const std::size_t planes = result.size();
     for (const BetweenCheck& between : check.between) {
         // The way back from the other plane tells the same.
-        const bool is_known = std::any_of(result.begin() + static_cast<std::ptrdiff_t>(planes), result.end(),
-                                          [&](const SectionFault& fault) {
-                                              return fault.contours == std::vector{between.other, between.contour};
-                                          });
+        const bool is_known =
+            std::any_of(result.begin() + static_cast<std::ptrdiff_t>(planes), result.end(), [&](const SectionFault& fault) {
+                return fault.contours == std::vector{between.other, between.contour};
+            });
         if (between.is_wrong && !is_known)
             result.push_back({SectionFaultKind::between,
                               between.position,

@@ -58,9 +58,9 @@ SectionRaster rasterize(const Section& section) {
     double step = raster.extent_mm / kFewest;
     raster.lattice = lattice_around(raster.box, step, std::max(kMargin * raster.extent_mm, 4 * step));
     fill(section, raster);
-    const double wanted = kOfWidth * 2 * raster.area_mm2 / length;
-    if (raster.area_mm2 > 0 && wanted >= step) return raster;
-    step = std::max(wanted, raster.extent_mm / kMost);
+    const double spacing = kOfWidth * 2 * raster.area_mm2 / length;
+    if (raster.area_mm2 > 0 && spacing >= step) return raster;
+    step = std::max(spacing, raster.extent_mm / kMost);
     raster.lattice = lattice_around(raster.box, step, std::max(kMargin * raster.extent_mm, 4 * step));
     fill(section, raster);
     return raster;

@@ -19,9 +19,9 @@ std::string plane_name(const PlaneCheck& plane) {
 
 /// The largest region that nothing explains.
 const WrongRegion& worst_region(const PlaneCheck& plane) {
-    const auto found =
+    const auto first =
         std::find_if(plane.regions.begin(), plane.regions.end(), [](const WrongRegion& r) { return !r.is_explained; });
-    return found == plane.regions.end() ? plane.regions.front() : *found;
+    return first == plane.regions.end() ? plane.regions.front() : *first;
 }
 
 const char* fault(const WrongRegion& region) {

@@ -43,9 +43,9 @@ public:
     }
 
     double distance_mm(const Vec3& p) const {
-        Found found;
-        search(0, p, found);
-        return found.is_inside ? -std::sqrt(found.squared) : std::sqrt(found.squared);
+        Hit hit;
+        search(0, p, hit);
+        return hit.is_inside ? -std::sqrt(hit.squared) : std::sqrt(hit.squared);
     }
 
 private:
@@ -57,7 +57,7 @@ private:
         Box3 box;
         std::size_t begin, end, second_child = 0;  ///< the first child follows its parent; 0: a leaf
     };
-    struct Found {
+    struct Hit {
         double squared = std::numeric_limits<double>::infinity();
         bool is_inside = false;
     };
@@ -110,30 +110,30 @@ private:
         return squared;
     }
 
-    void search(std::size_t n, const Vec3& p, Found& found) const {
+    void search(std::size_t n, const Vec3& p, Hit& hit) const {
         const Node& node = nodes_[n];
-        if (to_box(node.box, p) >= kExactness * kExactness * found.squared) return;
+        if (to_box(node.box, p) >= kExactness * kExactness * hit.squared) return;
         if (node.second_child == 0) {
-            for (std::size_t i = node.begin; i < node.end; ++i) look_at(order_[i], p, found);
+            for (std::size_t i = node.begin; i < node.end; ++i) look_at(order_[i], p, hit);
             return;
         }
         const std::size_t first = n + 1, second = node.second_child;
         const bool is_first_nearer = to_box(nodes_[first].box, p) <= to_box(nodes_[second].box, p);
-        search(is_first_nearer ? first : second, p, found);
-        search(is_first_nearer ? second : first, p, found);
+        search(is_first_nearer ? first : second, p, hit);
+        search(is_first_nearer ? second : first, p, hit);
     }
 
     /// Inside is told by the normal of the place, between those of the corners: across an edge a triangle's own can be
     /// wrong.
-    void look_at(std::size_t triangle, const Vec3& p, Found& found) const {
+    void look_at(std::size_t triangle, const Vec3& p, Hit& hit) const {
         const auto [a, b, c] = corners(triangle);
         const Weights w = nearest_place(p, a, b, c);
         const Vec3 away = p - (w[0] * a + w[1] * b + w[2] * c);
         const double squared = dot(away, away);
-        if (squared >= found.squared) return;
+        if (squared >= hit.squared) return;
         const auto& [i, j, k] = mesh_.triangles[triangle];
         const Vec3 normal = w[0] * mesh_.normals[i] + w[1] * mesh_.normals[j] + w[2] * mesh_.normals[k];
-        found = {squared, dot(away, normal) < 0};
+        hit = {squared, dot(away, normal) < 0};
     }
 
     const TriangleMesh& mesh_;

@@ -12,7 +12,7 @@
 namespace kontur {
 namespace {
 
-constexpr std::size_t kPlaces = 100;              // of each section, from which ways lead on
+constexpr std::size_t kPlaces = 100;  // of each section, from which ways lead on
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// A way from a place of a section along the plane's normal to the next plane; infinitely long where there is none.
@@ -73,16 +73,13 @@ public:
 
     /// Ways on which both planes show the object; such as are most of a section's are looked at.
     void ask(std::size_t own, const std::vector<Way>& ways, Questions& questions) {
-        constexpr double kLeastShare = 0.5;
         constexpr std::size_t kFewest = 5;
-        std::map<std::size_t, std::vector<const Way*>> seen;
+        std::map<std::size_t, std::vector<const Way*>> ways_by_outline;
         for (const Way& way : ways)
             if (way.length_mm < kNone && looks_[way.to].contains(looks_[way.to].plane().to_uv(way.at(1))))
-                seen[way.to].push_back(&way);
-        for (const auto& [to, shared] : seen) {
-            if (shared.size() < kFewest ||
-                static_cast<double>(shared.size()) <= kLeastShare * static_cast<double>(ways.size()))
-                continue;
+                ways_by_outline[way.to].push_back(&way);
+        for (const auto& [to, shared] : ways_by_outline) {
+            if (shared.size() < kFewest || 2 * shared.size() <= ways.size()) continue;
             Pair& pair = add_pair(own, to, *looks_[own].contour(), *looks_[to].contour(), shared.size());
             std::vector<double> lengths;
             for (const Way* way : shared) {
@@ -123,8 +120,7 @@ public:
             }
             if (!place) continue;
             const double share = static_cast<double>(missing) / static_cast<double>(pair.ways);
-            check.between.push_back(
-                {pair.contour, pair.other, share, pair.gap_mm, *place, share > kMostMissing});
+            check.between.push_back({pair.contour, pair.other, share, pair.gap_mm, *place, share > kMostMissing});
         }
     }
 

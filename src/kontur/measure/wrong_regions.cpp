@@ -58,12 +58,12 @@ void add_stretches(const PlaneLook& a, const PlaneLook& b, std::vector<Contradic
     std::vector<Vec3> stretch;
     const auto end = [&] {
         if (stretch.empty()) return;
-        Contradiction found{{}, step * static_cast<double>(stretch.size())};
+        Contradiction one{{}, step * static_cast<double>(stretch.size())};
         const std::size_t stride = std::max<std::size_t>(1, stretch.size() / kPlaces);
-        for (std::size_t n = 0; n < stretch.size(); n += stride) found.places.push_back(stretch[n]);
+        for (std::size_t n = 0; n < stretch.size(); n += stride) one.places.push_back(stretch[n]);
         stretch.clear();
-        of_a.push_back(found);
-        of_b.push_back(std::move(found));
+        of_a.push_back(one);
+        of_b.push_back(std::move(one));
     };
     const auto steps = static_cast<std::int64_t>((line->high - line->low) / step) + 4;
     for (std::int64_t n = 0; n <= steps; ++n) {
@@ -76,12 +76,12 @@ void add_stretches(const PlaneLook& a, const PlaneLook& b, std::vector<Contradic
 
 /// A point of the set that is on the wrong side of what is drawn in a plane near it.
 void add_point(const Vec3& point, bool may_be_inside, bool may_be_outside, const PlaneLook& look,
-               std::vector<Contradiction>& found) {
+               std::vector<Contradiction>& all) {
     if (!look.section()) return;
     const Point2 at = look.plane().to_uv(point);
     const double clearance = look.clearance(at), off = std::abs(look.plane().distance_to(point));
     if (off >= clearance || (look.contains(at) ? may_be_inside : may_be_outside)) return;
-    found.push_back({{look.plane().from_uv(at)}, 2 * clearance});
+    all.push_back({{look.plane().from_uv(at)}, 2 * clearance});
 }
 
 /// One wrong region, as its pixels are gone through.
@@ -153,14 +153,14 @@ bool is_explained(const Region& region, const PlaneLook& look, const Sheet& shee
 }  // namespace
 
 std::vector<std::vector<Contradiction>> contradictions(std::span<const PlaneLook> looks, const ContourSet& set) {
-    std::vector<std::vector<Contradiction>> found(looks.size());
+    std::vector<std::vector<Contradiction>> all(looks.size());
     for (std::size_t a = 0; a < looks.size(); ++a) {
-        for (std::size_t b = a + 1; b < looks.size(); ++b) add_stretches(looks[a], looks[b], found[a], found[b]);
-        for (const Vec3& p : set.interior) add_point(p, true, false, looks[a], found[a]);
-        for (const Vec3& p : set.exterior) add_point(p, false, true, looks[a], found[a]);
-        for (const SurfacePoint& p : set.surface) add_point(p.position, false, false, looks[a], found[a]);
+        for (std::size_t b = a + 1; b < looks.size(); ++b) add_stretches(looks[a], looks[b], all[a], all[b]);
+        for (const Vec3& p : set.interior) add_point(p, true, false, looks[a], all[a]);
+        for (const Vec3& p : set.exterior) add_point(p, false, true, looks[a], all[a]);
+        for (const SurfacePoint& p : set.surface) add_point(p.position, false, false, looks[a], all[a]);
     }
-    return found;
+    return all;
 }
 
 OtherPlanes::OtherPlanes(std::span<const PlaneLook> looks, double tolerance_mm)
@@ -170,11 +170,10 @@ OtherPlanes::OtherPlanes(std::span<const PlaneLook> looks, double tolerance_mm)
 }
 
 bool OtherPlanes::silence(const PlaneLook& own, const Vec3& place) const {
-    constexpr double kNearer = 0.5;
     if (are_parallel_ || !own.section()) return false;
     const double clearance = own.clearance(own.plane().to_uv(place));
     if (clearance < own.extent_mm()) return false;
-    const double near = kNearer * clearance;
+    const double near = clearance / 2;
     return std::any_of(looks_.begin(), looks_.end(), [&](const PlaneLook& other) {
         if (&other == &own || !other.section()) return false;
         const double off = std::abs(other.plane().distance_to(place));

@@ -21,9 +21,9 @@ Vec3 middle_of(const Contour& contour) {
     return sum / static_cast<double>(contour.points.size());
 }
 
-bool is_same(const Plane& drawn, const Plane& plane, double distance_mm) {
-    return std::abs(dot(drawn.normal, plane.normal)) > kSamePlaneCosine &&
-           std::abs(drawn.distance_to(plane.origin)) < distance_mm;
+bool is_same(const Plane& other, const Plane& plane, double distance_mm) {
+    return std::abs(dot(other.normal, plane.normal)) > kSamePlaneCosine &&
+           std::abs(other.distance_to(plane.origin)) < distance_mm;
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ DrawnLines::DrawnLines(const ContourSet& contours) {
         points.insert(points.end(), dense.begin(), dense.end());
         Plane plane = contour.plane;
         plane.origin = middle_of(contour);
-        const auto same = [&](const Plane& drawn) { return is_same(drawn, plane, kSamePlaneDistance * diameter); };
+        const auto same = [&](const Plane& other) { return is_same(other, plane, kSamePlaneDistance * diameter); };
         if (std::none_of(planes_.begin(), planes_.end(), same)) planes_.push_back(plane);
     }
     for (const SurfacePoint& point : contours.surface) points.push_back(point.position);

@@ -9,11 +9,11 @@
 namespace kontur {
 namespace {
 
-ContourSet with_contours(const ContourSet& set, const PlaneGroup& group, bool kept) {
+ContourSet with_contours(const ContourSet& set, const PlaneGroup& group, bool of_group) {
     ContourSet part = set;
     part.contours.clear();
     for (std::size_t c = 0; c < set.contours.size(); ++c)
-        if ((std::find(group.begin(), group.end(), c) != group.end()) == kept) part.contours.push_back(set.contours[c]);
+        if ((std::find(group.begin(), group.end(), c) != group.end()) == of_group) part.contours.push_back(set.contours[c]);
     return part;
 }
 

@@ -36,10 +36,10 @@ double weighted_quantile(std::span<const double> values, std::span<const double>
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-    const double wanted = fraction * std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double rank = fraction * std::accumulate(weights.begin(), weights.end(), 0.0);
     double sum = 0;
     for (const std::size_t n : order)
-        if ((sum += weights[n]) >= wanted) return values[n];
+        if ((sum += weights[n]) >= rank) return values[n];
     return values[order.back()];
 }
 

@@ -26,9 +26,9 @@ std::vector<std::size_t> one_per_cell(std::span<const Vec3> points, const Vec3& 
         const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
         first.try_emplace({cell(at.x), cell(at.y), cell(at.z)}, i);
     }
-    std::vector<std::size_t> kept;
-    for (const auto& entry : first) kept.push_back(entry.second);
-    return kept;
+    std::vector<std::size_t> numbers;
+    for (const auto& entry : first) numbers.push_back(entry.second);
+    return numbers;
 }
 
 /// The edge of cells about `count` of which hold points. How many do leaps with the edge, by a few in a hundred, and the

@@ -8,8 +8,8 @@
 #include "kontur/base/counted.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/find_near_lines.h"
+#include "kontur/shape/plane_evidence.h"
 #include "kontur/shape/section.h"
-#include "kontur/shape/seen_inside.h"
 
 namespace kontur {
 namespace {
@@ -48,23 +48,23 @@ public:
     FillChanges declared() {
         unite([&](const NearLines& pair) { return declared_[pair.contour] == declared_[pair.other]; });
         FillChanges changes = what_remains();
-        std::vector<Contour> kept;
+        std::vector<Contour> others;
         std::vector<std::size_t> number_of(set_.contours.size(), kTakenOut);
         for (std::size_t c = 0; c < set_.contours.size(); ++c) {
             int layers = 0;
             for (const std::size_t line : around(c)) layers += declared_[line] ? -1 : 1;
             if (layers <= 0 && declared_[c]) changes.stray_holes.push_back(c);
             if (layers > 0 && !declared_[c]) continue;
-            number_of[c] = kept.size();
-            kept.push_back(set_.contours[c]);
+            number_of[c] = others.size();
+            others.push_back(set_.contours[c]);
         }
         for (NearLines& pair : changes.near_lines) {
             pair.contour = number_of[pair.contour];
             pair.other = number_of[pair.other];
         }
         std::erase_if(changes.near_lines, [](const NearLines& pair) { return pair.contour == kTakenOut; });
-        changes.removed = set_.contours.size() - kept.size();
-        set_.contours = std::move(kept);
+        changes.removed = set_.contours.size() - others.size();
+        set_.contours = std::move(others);
         return changes;
     }
 
@@ -110,8 +110,8 @@ private:
         const auto is_open = [&](const NearLines& pair) { return pair.are_nested && !declared_[pair.contour]; };
         const bool any = unite([&](const NearLines& pair) {
             const Contour& inner = set_.contours[pair.contour];
-            return is_open(pair) &&
-                   seen_inside(inner, sections, section_with(pair.contour)) == (inner.hole ? Seen::object : Seen::no_object);
+            return is_open(pair) && evidence_inside(inner, sections, section_with(pair.contour)) ==
+                                        (inner.hole ? PlaneEvidence::object : PlaneEvidence::no_object);
         });
         if (any) return true;
         std::vector<bool> doubtful(sections.size(), false);
@@ -120,7 +120,8 @@ private:
         return unite([&](const NearLines& pair) {
             const Contour& inner = set_.contours[pair.contour];
             return is_open(pair) && inner.hole && pair.share < kThin &&
-                   seen_beyond(inner, sections, section_with(pair.contour), doubtful, pair.apart_mm) == Seen::object;
+                   evidence_beyond(inner, sections, section_with(pair.contour), doubtful, pair.apart_mm) ==
+                       PlaneEvidence::object;
         });
     }
 

@@ -24,13 +24,13 @@ struct FillChanges {
 /// "contours 1 and 2 overlap in part (and 3 more such pairs); what any of them encloses is filled", of at least one pair.
 std::string overlap_sentence(const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 
-/// Makes every contour's `hole` say on which of its sides the object lies. Doing it again changes nothing. The tolerance of
-/// `find_nesting` is `kSamePlane` of the set's diameter.
+/// Makes every contour's `hole` say on which of its sides the object lies. Doing it again changes nothing. The
+/// tolerance of `find_nesting` is `kSamePlane` of the set's diameter.
 ///
-/// Two lines of a plane that lie near to each other (find_near_lines) are taken for one that was drawn twice, so that
-/// neither is inside the other, where they cross, and where one lies inside the other and other planes show the same inside
-/// of both as between them (seen_inside). Nothing else tells a thin wall from a line drawn again: then it is a wall. A
-/// contour declared as a hole, inside one that is none, always is a wall.
+/// Two lines of a plane that lie near to each other (find_near_lines) may be one line, drawn twice. They are one
+/// where they cross. They are also one where other planes show the same inside of both as between them
+/// (evidence_inside). Otherwise the space between them is a wall, and always where the inner one is declared as a
+/// hole.
 FillChanges apply_fill_rule(ContourSet& set, FillRule rule);
 
 }  // namespace kontur

@@ -254,13 +254,13 @@ std::optional<std::string> contour_problem(const Contour& contour, const std::st
 std::vector<std::string> leave_out_lines(ContourSet& set, const ContourCheckOptions& options) {
     if (!shows_without_lines(set, options)) return {};
     std::string first;
-    std::vector<Contour> kept;
+    std::vector<Contour> others;
     for (std::size_t i = 0; i < set.contours.size(); ++i) {
-        if (!lacks_area(set.contours[i], options)) kept.push_back(std::move(set.contours[i]));
+        if (!lacks_area(set.contours[i], options)) others.push_back(std::move(set.contours[i]));
         else if (first.empty()) first = lack_of_area(set.contours[i], options, fmt::format("contour {}", i + 1));
     }
-    const std::size_t left_out = set.contours.size() - kept.size();
-    set.contours = std::move(kept);
+    const std::size_t left_out = set.contours.size() - others.size();
+    set.contours = std::move(others);
     if (left_out == 0) return {};
     return {left_out == 1 ? first + "; it was left out, and contours after it count one less"
                           : fmt::format("{}; it and {} more of that kind were left out, and those after them count less",

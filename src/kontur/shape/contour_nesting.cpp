@@ -98,10 +98,10 @@ std::vector<std::size_t> largest_first(const std::vector<Contour>& contours) {
 std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, double tolerance_mm) {
     std::vector<std::size_t> planes, plane_of(contours.size());
     for (const std::size_t c : largest_first(contours)) {
-        const auto found = std::find_if(planes.begin(), planes.end(), [&](std::size_t other) {
+        const auto group = std::find_if(planes.begin(), planes.end(), [&](std::size_t other) {
             return lies_in(contours[c], contours[other].plane, tolerance_mm);
         });
-        plane_of[c] = found == planes.end() ? planes.emplace_back(c) : *found;
+        plane_of[c] = group == planes.end() ? planes.emplace_back(c) : *group;
     }
     return plane_of;
 }

@@ -17,29 +17,29 @@ namespace {
 constexpr double kLeastSine = 0.0087;  // half a degree: off-plane errors grow by its inverse along the common line
 
 /// A section with what the search needs of it.
-struct Drawn {
+struct BoxedSection {
     Section section;
     Box3 box;
 };
 
 /// A section that is asked for the place nearest to every passage of others through its plane.
-struct Searched {
+struct SearchableSection {
     const Section& section;
     SectionSearch search;
 };
 
-std::vector<Drawn> drawn_planes(const ContourSet& set) {
-    std::vector<Drawn> planes;
+std::vector<BoxedSection> drawn_planes(const ContourSet& set) {
+    std::vector<BoxedSection> planes;
     for (const Section& section : sections_of(set, kSamePlane * diameter_mm(set))) {
-        Drawn drawn{{section.plane, {}, {}, {}}, {}};
+        BoxedSection boxed{{section.plane, {}, {}, {}}, {}};
         for (std::size_t o = 0; o < section.outlines.size(); ++o) {
             const Contour& contour = set.contours[section.contours[o]];
             if (!contour.closed || contour.points.size() < 3) continue;
-            drawn.section.outlines.push_back(section.outlines[o]);
-            drawn.section.contours.push_back(section.contours[o]);
-            for (const Vec3& p : contour.points) drawn.box.extend(p);
+            boxed.section.outlines.push_back(section.outlines[o]);
+            boxed.section.contours.push_back(section.contours[o]);
+            for (const Vec3& p : contour.points) boxed.box.extend(p);
         }
-        if (!drawn.section.outlines.empty()) planes.push_back(std::move(drawn));
+        if (!boxed.section.outlines.empty()) planes.push_back(std::move(boxed));
     }
     return planes;
 }
@@ -79,7 +79,7 @@ struct Distance {
 /// All of one section's passages in order along the line: the object begins at the first, ends at the second, and so on.
 std::vector<Passage> passages(const Section& section, const Plane& other, const SpanLine& line) {
     const Distance distance(section.plane, other);
-    std::vector<Passage> found;
+    std::vector<Passage> result;
     for (std::size_t o = 0; o < section.outlines.size(); ++o) {
         const Polygon2& outline = section.outlines[o];
         double before = distance(outline.back());
@@ -90,13 +90,13 @@ std::vector<Passage> passages(const Section& section, const Plane& other, const 
                 const Point2 &a = outline[edge], &b = outline[i];
                 const double t = before / (before - here);
                 const Point2 p{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
-                found.push_back({line.along(section.plane.from_uv(p)), p, o, edge});
+                result.push_back({line.along(section.plane.from_uv(p)), p, o, edge});
             }
             before = here;
         }
     }
-    std::sort(found.begin(), found.end(), [](const Passage& a, const Passage& b) { return a.at < b.at; });
-    return found;
+    std::sort(result.begin(), result.end(), [](const Passage& a, const Passage& b) { return a.at < b.at; });
+    return result;
 }
 
 bool reaches(const Box3& box, const Plane& plane) {
@@ -124,7 +124,7 @@ double depth_between(const Section& section, const Plane& other, const SpanLine&
 /// Two planes whose contours meet on a line.
 class PlanePair {
 public:
-    PlanePair(const Searched& a, const Searched& b, const SpanLine& line)
+    PlanePair(const SearchableSection& a, const SearchableSection& b, const SpanLine& line)
         : sections_{&a.section, &b.section}, searches_{&a.search, &b.search}, line_(line) {}
 
     /// In order along the line the passages of both planes form pairs: between the two of a pair the planes contradict each
@@ -167,8 +167,8 @@ private:
     Crossing matched(const Sighting& p, const Sighting& q) const {
         if (contour(q) < contour(p)) return matched(q, p);
         const double ahead = p.passage.at - q.passage.at;
-        const double moved = std::min({std::abs(ahead), nearest_other(p).distance, nearest_other(q).distance});
-        return {contour(p), contour(q), position(p), position(q), true, p.begins ? -ahead : ahead, moved};
+        const double distance_mm = std::min({std::abs(ahead), nearest_other(p).distance, nearest_other(q).distance});
+        return {contour(p), contour(q), position(p), position(q), true, p.begins ? -ahead : ahead, distance_mm};
     }
 
     void append_unmatched(const Sighting& p, const Sighting& q, std::vector<Crossing>& crossings) const {
@@ -211,18 +211,18 @@ void divide(Disagreement& sum) {
 }  // namespace
 
 std::vector<Crossing> find_crossings(const ContourSet& set) {
-    const std::vector<Drawn> planes = drawn_planes(set);
+    const std::vector<BoxedSection> planes = drawn_planes(set);
     const Vec3 center = bounding_box(set).center();
-    std::vector<Searched> searched;
-    searched.reserve(planes.size());
-    for (const Drawn& drawn : planes) searched.push_back({drawn.section, SectionSearch(drawn.section)});
+    std::vector<SearchableSection> searchable;
+    searchable.reserve(planes.size());
+    for (const BoxedSection& boxed : planes) searchable.push_back({boxed.section, SectionSearch(boxed.section)});
     std::vector<Crossing> crossings;
     for (std::size_t a = 0; a < planes.size(); ++a)
         for (std::size_t b = a + 1; b < planes.size(); ++b) {
             const Section &first = planes[a].section, &second = planes[b].section;
             if (!reaches(planes[a].box, second.plane) && !reaches(planes[b].box, first.plane)) continue;
             if (const auto line = common_line(first.plane, second.plane, center))
-                PlanePair(searched[a], searched[b], *line).append_to(crossings);
+                PlanePair(searchable[a], searchable[b], *line).append_to(crossings);
         }
     return crossings;
 }

@@ -22,10 +22,10 @@ struct Crossing {
     double disagreement_mm = 0;  ///< >= 0, how far a surface would have to move so that both are right
 };
 
-/// Every place where closed contours of different planes meet. On the line that two planes share, the ways into and out of
-/// the object are matched in order, so that the lengths on which the planes contradict each other are least; matched pairs
-/// appear once, with the contour of the lower index first. What one plane shows and the other does not (a gap, a tip that
-/// just reaches through the plane, a second object that was not drawn there) stays unmatched.
+/// Every place where closed contours of different planes meet. On the line that two planes share, entries into the object
+/// and exits are matched in order, such that the lengths of contradiction are least. Matched pairs appear once, the contour
+/// of the lower index first. A gap, a tip that just reaches through the plane, or a second object that only one plane shows
+/// stays unmatched.
 ///
 /// A line that cuts a surface at a flat angle makes much of a small displacement. So the disagreement of a match is the
 /// lesser distance of either position from the other plane's contours; unmatched it is at most half the length that is shown

@@ -57,15 +57,15 @@ std::optional<NearLines> near_lines(const std::vector<Contour>& contours, std::s
 }  // namespace
 
 std::vector<NearLines> find_near_lines(const std::vector<Contour>& contours, const Nesting& nesting) {
-    std::vector<NearLines> found;
+    std::vector<NearLines> result;
     const auto look_at = [&](std::size_t contour, std::size_t other, bool are_nested) {
-        if (const auto pair = near_lines(contours, contour, other, are_nested)) found.push_back(*pair);
+        if (const auto pair = near_lines(contours, contour, other, are_nested)) result.push_back(*pair);
     };
     for (std::size_t inner = 0; inner < contours.size(); ++inner)
         for (const std::size_t around : nesting.enclosing[inner])
             if (nesting.depth[around] + 1 == nesting.depth[inner]) look_at(inner, around, true);
     for (const auto& [first, second] : nesting.crossings) look_at(first, second, false);
-    return found;
+    return result;
 }
 
 Groups::Groups(std::size_t count) : least_(count) { std::iota(least_.begin(), least_.end(), std::size_t{0}); }

@@ -10,9 +10,9 @@
 
 namespace kontur {
 
-/// Pairs of contours between which less than a third lies of what the larger one encloses: those of which one is the next
-/// around the other, and those that cross. A plane through a ball with a round cavity in its middle shows so thin a wall
-/// only where planes that miss the cavity show less than half as much as it takes here. O(n log n) in points and pairs.
+/// Pairs of contours that cross, or of which one is the next around the other, with less than a third of the larger one's
+/// area between them. A plane through a ball with a round cavity in its middle shows so thin a wall only where planes that
+/// miss the cavity show less than half of that. O(n log n) in points and pairs.
 std::vector<NearLines> find_near_lines(const std::vector<Contour>& contours, const Nesting& nesting);
 
 /// Indices that belong together.

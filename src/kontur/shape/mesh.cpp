@@ -103,7 +103,7 @@ MeshTopology topology(const TriangleMesh& mesh) {
     MeshTopology result;
     result.closed = result.oriented = !edges.empty();
 
-    std::vector<bool> used(mesh.points.size());
+    std::vector<bool> is_used(mesh.points.size());
     Components components(mesh.points.size());
     std::int64_t edge_count = 0;
     for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
@@ -111,13 +111,13 @@ MeshTopology topology(const TriangleMesh& mesh) {
         ++edge_count;
         result.closed &= last - first == 2;
         result.oriented &= last - first == 2 && edges[first].backward != edges[first + 1].backward;
-        used[edges[first].low] = used[edges[first].high] = true;
+        is_used[edges[first].low] = is_used[edges[first].high] = true;
         components.join(edges[first].low, edges[first].high);
     }
 
     std::int64_t point_count = 0;
     for (std::uint32_t p = 0; p < mesh.points.size(); ++p) {
-        if (!used[p]) continue;
+        if (!is_used[p]) continue;
         ++point_count;
         if (components.root(p) == p) ++result.components;
     }

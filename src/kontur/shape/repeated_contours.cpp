@@ -36,7 +36,7 @@ std::vector<std::string> leave_out_repetitions(ContourSet& set) {
     const double same_mm = kSameOfDiameter * diameter_mm(set);
     if (same_mm == 0) return {};
     std::map<std::pair<bool, ContourEnd>, SeenRings> seen;
-    std::vector<Contour> kept;
+    std::vector<Contour> others;
     std::size_t first = 0, left_out = 0;
     for (std::size_t n = 0; n < set.contours.size(); ++n) {
         Contour& contour = set.contours[n];
@@ -44,10 +44,10 @@ std::vector<std::string> leave_out_repetitions(ContourSet& set) {
         if (contour.closed && !rings.add(contour.points)) {
             if (left_out++ == 0) first = n;
         } else {
-            kept.push_back(std::move(contour));
+            others.push_back(std::move(contour));
         }
     }
-    set.contours = std::move(kept);
+    set.contours = std::move(others);
     if (left_out == 0) return {};
     return {left_out == 1 ? fmt::format("contour {} repeats one before it and was left out", first + 1)
                           : fmt::format("{} contours that repeat others were left out, the first of them contour {}",

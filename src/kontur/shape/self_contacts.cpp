@@ -49,10 +49,10 @@ std::vector<Pair> meeting_pairs(const Polygon2& polygon) {
         std::erase_if(active, [&](std::size_t j) { return high(j) < low(i); });
         for (const std::size_t j : active) {
             if (after(polygon, i) == j || after(polygon, j) == i) continue;
-            const Meeting met = meeting(polygon[i], polygon[after(polygon, i)], polygon[j], polygon[after(polygon, j)]);
-            if (met == Meeting::apart) continue;
-            const bool crosses = met == Meeting::crossing || displaced_segments_cross(polygon, i, j);
-            pairs.push_back({std::min(i, j), std::max(i, j), met, crosses});
+            const Meeting contact = meeting(polygon[i], polygon[after(polygon, i)], polygon[j], polygon[after(polygon, j)]);
+            if (contact == Meeting::apart) continue;
+            const bool crosses = contact == Meeting::crossing || displaced_segments_cross(polygon, i, j);
+            pairs.push_back({std::min(i, j), std::max(i, j), contact, crosses});
         }
         active.push_back(i);
     }
@@ -94,8 +94,8 @@ public:
         for (std::size_t p = 0; p < pairs_.size(); ++p)
             for (const std::size_t i : neighbourhood(pairs_[p].first))
                 for (const std::size_t j : neighbourhood(pairs_[p].second))
-                    if (const auto found = index.find(std::minmax(i, j)); found != index.end())
-                        parent_[root(p)] = root(found->second);
+                    if (const auto entry = index.find(std::minmax(i, j)); entry != index.end())
+                        parent_[root(p)] = root(entry->second);
     }
 
     void append_to(std::vector<SelfContact>& contacts) {

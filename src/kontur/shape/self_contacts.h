@@ -9,9 +9,9 @@
 
 namespace kontur {
 
-/// Whether the points a, b, c of a polygon make a left turn, never a tie: where they lie on one line, each point counts as
-/// displaced by an infinitesimal amount that depends on its index alone (Edelsbrunner & Muecke 1990), so that all answers
-/// agree with one another. Contours snapped to pixels do run through their own points and along their own segments.
+/// Whether the points a, b, c of a polygon make a left turn. There are no ties: points on one line count as displaced by an
+/// infinitesimal amount that depends on their indices alone (Edelsbrunner & Muecke 1990). So all answers agree. Contours
+/// snapped to pixels do run through their own points and along their own segments.
 bool is_left_turn(const Polygon2& polygon, std::size_t a, std::size_t b, std::size_t c);
 
 /// The point of smallest first coordinate, after that displacement; surely a convex corner.

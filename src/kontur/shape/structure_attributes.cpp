@@ -6,9 +6,9 @@
 
 namespace kontur {
 
-StructureAttributes fitted_attributes(StructureAttributes drawn) {
-    drawn.generation_algorithm = "SEMIAUTOMATIC";
-    return drawn;
+StructureAttributes fitted_attributes(StructureAttributes attributes) {
+    attributes.generation_algorithm = "SEMIAUTOMATIC";
+    return attributes;
 }
 
 std::array<std::uint8_t, 3> to_rgb8(const std::array<double, 3>& levels) {

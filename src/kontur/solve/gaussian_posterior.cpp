@@ -88,15 +88,15 @@ void add_clear_variances(const std::vector<double>& s, const std::vector<double>
 void add_variances_of(const std::vector<std::size_t>& columns, std::span<const double> prior, const std::vector<double>& s,
                       const std::vector<double>& lower, std::vector<double>& variance) {
     const std::size_t n = s.size();
-    for (std::size_t done = 0; done < columns.size(); done += kForwardSides) {
-        const std::size_t count = std::min<std::size_t>(kForwardSides, columns.size() - done);
+    for (std::size_t column = 0; column < columns.size(); column += kForwardSides) {
+        const std::size_t count = std::min<std::size_t>(kForwardSides, columns.size() - column);
         std::vector<double> v(n * kForwardSides);
         for (std::size_t c = 0; c < count; ++c)
-            for (std::size_t i = 0; i < n; ++i) v[i * kForwardSides + c] = s[i] * prior[i + n * columns[done + c]];
-        const Sides seen = squared_lengths(lower, n, 0, v);
+            for (std::size_t i = 0; i < n; ++i) v[i * kForwardSides + c] = s[i] * prior[i + n * columns[column + c]];
+        const Sides squares = squared_lengths(lower, n, 0, v);
         for (std::size_t c = 0; c < count; ++c) {
-            const std::size_t j = columns[done + c];
-            variance[j] = prior[j + n * j] - seen[c];
+            const std::size_t j = columns[column + c];
+            variance[j] = prior[j + n * j] - squares[c];
         }
     }
 }
@@ -127,10 +127,10 @@ GaussianPosterior gaussian_posterior(std::span<const double> prior, std::span<co
 
     // weights = v - S (I + S K S)^-1 S K v, v the information.
     GaussianPosterior posterior{{}, {}, {information.begin(), information.end()}};
-    std::vector<double> seen = product(prior, information);
-    for (std::size_t i = 0; i < n; ++i) seen[i] *= s[i];
-    small_cholesky_solve(lower.data(), static_cast<int>(n), seen.data());
-    for (std::size_t i = 0; i < n; ++i) posterior.weights[i] -= s[i] * seen[i];
+    std::vector<double> solution = product(prior, information);
+    for (std::size_t i = 0; i < n; ++i) solution[i] *= s[i];
+    small_cholesky_solve(lower.data(), static_cast<int>(n), solution.data());
+    for (std::size_t i = 0; i < n; ++i) posterior.weights[i] -= s[i] * solution[i];
     posterior.mean = product(prior, posterior.weights);
 
     posterior.variance = variances(prior, s, lower);

@@ -22,9 +22,9 @@ struct UsedClusters {
     const std::vector<bool>& used;
 };
 
-/// Nested cluster bases on the points themselves: seen from afar, the weights of a cluster's points may be moved to its
-/// skeleton, a few of its own points, and a field is determined on all its points by its values on the skeleton. The
-/// skeleton of a cluster is chosen from its children's (Martinsson & Rokhlin 2005).
+/// Nested cluster bases on the points themselves. The skeleton of a cluster is a few of its own points. From afar, weights
+/// may be moved to the skeleton, and values on it determine a smooth field on all points. The skeleton of a cluster is
+/// chosen from its children's (Martinsson & Rokhlin 2005).
 ///
 /// All nodes stand in one sequence: first the points in the tree's order, then the skeletons, finest level first.
 class NestedBasis {

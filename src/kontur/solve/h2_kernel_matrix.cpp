@@ -8,27 +8,26 @@
 namespace kontur {
 namespace {
 
-constexpr std::size_t kMostGroups = 16;
-
 /// Clusters in far pairs and all below them.
 std::vector<bool> clusters_with_basis(const ClusterTree& tree, const PairPartition& partition) {
-    std::vector<bool> used(tree.clusters.size());
+    std::vector<bool> is_used(tree.clusters.size());
     for (const ClusterPair& pair : partition.far)
-        used[static_cast<std::size_t>(pair.a)] = used[static_cast<std::size_t>(pair.b)] = true;
-    for (std::size_t c = 0; c < used.size(); ++c)
-        if (used[c] && !tree.clusters[c].is_leaf())
-            for (const std::int32_t child : {0, 1}) used[tree.clusters[c].first_child + child] = true;
-    return used;
+        is_used[static_cast<std::size_t>(pair.a)] = is_used[static_cast<std::size_t>(pair.b)] = true;
+    for (std::size_t c = 0; c < is_used.size(); ++c)
+        if (is_used[c] && !tree.clusters[c].is_leaf())
+            for (const std::int32_t child : {0, 1}) is_used[tree.clusters[c].first_child + child] = true;
+    return is_used;
 }
 
 /// Sorts runs and joins those that touch or nearly do.
 void join(std::vector<NodeRun>& runs, std::int32_t gap) {
     std::sort(runs.begin(), runs.end(), [](NodeRun a, NodeRun b) { return a.begin < b.begin; });
-    std::size_t kept = 0;
+    std::size_t count = 0;
     for (const NodeRun& run : runs)
-        if (kept > 0 && run.begin <= runs[kept - 1].end + gap) runs[kept - 1].end = std::max(runs[kept - 1].end, run.end);
-        else runs[kept++] = run;
-    runs.resize(kept);
+        if (count > 0 && run.begin <= runs[count - 1].end + gap)
+            runs[count - 1].end = std::max(runs[count - 1].end, run.end);
+        else runs[count++] = run;
+    runs.resize(count);
 }
 
 }  // namespace
@@ -71,12 +70,12 @@ double H2KernelMatrix::cost(const Row& row) const {
 
 void H2KernelMatrix::group_rows() {
     for (const Row& row : rows_) evaluations_ += cost(row);
-    double done = 0;
+    double progress = 0;
     for (std::size_t r = 0; r < rows_.size();) {
         Group group{r, r, {}};
         const double until = evaluations_ * static_cast<double>(groups_.size() + 1) / kMostGroups;
-        for (; r < rows_.size() && (r == group.first_row || done < until); ++r) {
-            done += cost(rows_[r]);
+        for (; r < rows_.size() && (r == group.first_row || progress < until); ++r) {
+            progress += cost(rows_[r]);
             group.touched.push_back(rows_[r].left);
             const auto rights = rows_[r].rights(rights_);
             group.touched.insert(group.touched.end(), rights.begin(), rights.end());

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kTile = 32;  // rows of the matrix that are held in vector registers
 // Rows are dealt out to this many groups, each with an output of its own, whatever the number of threads.
-constexpr std::size_t kMostGroups = 16;
 
 // On one core a pair takes 0.35 ns; an H2 matrix 4 us (oblique planes) to 10 us (many slices) per point once and 0.6 us per
 // product. With nine products both cost the same between 5,500 and 7,500 points.

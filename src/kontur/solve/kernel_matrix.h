@@ -11,6 +11,9 @@
 
 namespace kontur {
 
+/// Products are summed in at most so many groups of rows, so that they do not depend on the number of threads.
+inline constexpr std::size_t kMostGroups = 16;
+
 /// The matrix phi(|x_i - x_j|) of fixed points, known by its products only. Products are the same bytes for any number of
 /// threads.
 class KernelMatrix {

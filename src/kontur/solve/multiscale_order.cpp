@@ -22,7 +22,7 @@ std::uint64_t spread_bits(std::uint64_t v) {
 struct CodedPoint {
     std::uint64_t morton;
     std::int32_t point;
-    bool taken = false;
+    bool is_taken = false;
 };
 
 double squared_distance(const Vec3& a, const Vec3& b) { return dot(a - b, a - b); }
@@ -57,7 +57,7 @@ MultiscaleOrder multiscale_order(const PointArrays& points) {
         for (std::size_t begin = 0; begin < n; begin = next) {
             bool covered = false;
             for (next = begin; next < n && coded[next].morton >> shift == coded[begin].morton >> shift; ++next)
-                covered |= coded[next].taken;
+                covered |= coded[next].is_taken;
             if (covered) continue;
             // The cell's point nearest to its centre represents it.
             Vec3 center;
@@ -73,7 +73,7 @@ MultiscaleOrder multiscale_order(const PointArrays& points) {
                     best = q;
                 }
             }
-            coded[best].taken = true;
+            coded[best].is_taken = true;
             result.order.push_back(coded[best].point);
         }
         result.level_begin.push_back(static_cast<std::int32_t>(result.order.size()));
@@ -81,7 +81,7 @@ MultiscaleOrder multiscale_order(const PointArrays& points) {
     }
     if (result.order.size() < n) {  // points closer than the deepest level resolves
         for (const CodedPoint& c : coded)
-            if (!c.taken) result.order.push_back(c.point);
+            if (!c.is_taken) result.order.push_back(c.point);
         result.level_begin.push_back(static_cast<std::int32_t>(n));
         result.spacing.push_back(result.spacing.back());
     }

@@ -66,17 +66,17 @@ void PreconditionerPattern::cut_into_supernodes(const MultiscaleOrder& order) {
 
 void PreconditionerPattern::find_neighbours(const Work& work) {
     const EarlierNeighbours neighbours(points_, work);
-    std::vector<std::vector<std::int32_t>> found(supernodes_.size());
+    std::vector<std::vector<std::int32_t>> rows(supernodes_.size());
     parallel_for(static_cast<std::int64_t>(supernodes_.size()), 16, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s)
-            found[s] =
+            rows[s] =
                 neighbours.of(supernodes_[s].begin, supernodes_[s].begin + supernodes_[s].members, options_.neighbours);
     });
     for (std::size_t s = 0; s < supernodes_.size(); ++s) {
         Supernode& node = supernodes_[s];
-        node.neighbours = static_cast<std::int32_t>(found[s].size());
+        node.neighbours = static_cast<std::int32_t>(rows[s].size());
         node.columns = columns_.size();
-        columns_.insert(columns_.end(), found[s].begin(), found[s].end());
+        columns_.insert(columns_.end(), rows[s].begin(), rows[s].end());
         for (std::int32_t m = 0; m < node.members; ++m) columns_.push_back(node.begin + m);
     }
 }

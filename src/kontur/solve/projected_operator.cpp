@@ -108,8 +108,8 @@ double ProjectedOperator::sampled_deviation(const Vector& w, const Vector& image
         sum_kernel({system_.kernel, system_.centers, w}, PointArrays(positions), exact, work_);
         for (std::size_t s = 0; s < points.size(); ++s) {
             const double sum = exact[s] + powers.value(positions[s]);
-            const double expected = sign * sum + system_.smoothing[points[s]] * w[points[s]];
-            largest = std::max(largest, std::abs(expected - image[points[s]]));
+            const double value = sign * sum + system_.smoothing[points[s]] * w[points[s]];
+            largest = std::max(largest, std::abs(value - image[points[s]]));
         }
     }
     return largest;

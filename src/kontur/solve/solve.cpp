@@ -129,11 +129,11 @@ UnitFrame frame_of(const ConstraintSet& constraints, const SolveOptions& options
 /// The weights of those centres that the previous solve had too; the others' are 0.
 std::vector<double> start_weights(const std::vector<Vec3>& centers, const PreviousSolve& previous, double scale) {
     const auto key = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
-    std::map<std::array<double, 3>, double> known;
-    for (std::size_t i = 0; i < previous.centers.size(); ++i) known[key(previous.centers[i])] = previous.weights[i];
+    std::map<std::array<double, 3>, double> values;
+    for (std::size_t i = 0; i < previous.centers.size(); ++i) values[key(previous.centers[i])] = previous.weights[i];
     std::vector<double> start(centers.size(), 0.0);
     for (std::size_t i = 0; i < centers.size(); ++i)
-        if (const auto found = known.find(key(centers[i])); found != known.end()) start[i] = scale * found->second;
+        if (const auto entry = values.find(key(centers[i])); entry != values.end()) start[i] = scale * entry->second;
     return start;
 }
 

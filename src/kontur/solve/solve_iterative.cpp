@@ -136,9 +136,9 @@ public:
 
     Coefficients result() {
         Coefficients c;
-        Vector left = system_.values;
-        add_scaled(left, -kernel_sign(system_.kernel), image_.values);
-        if (system_.kernel != Kernel::screened) c.polynomial = fit_linear(system_, left);
+        Vector residual = system_.values;
+        add_scaled(residual, -kernel_sign(system_.kernel), image_.values);
+        if (system_.kernel != Kernel::screened) c.polynomial = fit_linear(system_, residual);
         c.weights = std::move(weights_);
         c.iterations = iterations_;
         c.residual = residual_;
@@ -185,8 +185,8 @@ private:
             rz = next;
             idle = largest(r_) < least ? 0 : idle + 1;
             least = std::min(least, largest(r_));
-            const double done = std::log(start_ / std::max(least, limit_)) / std::log(start_ / limit_ + 1e-9);
-            work_.report("solve", std::clamp(done, 0.0, 1.0));
+            const double progress = std::log(start_ / std::max(least, limit_)) / std::log(start_ / limit_ + 1e-9);
+            work_.report("solve", std::clamp(progress, 0.0, 1.0));
         }
         return true;
     }

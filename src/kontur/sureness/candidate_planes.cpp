@@ -138,19 +138,19 @@ Plane plane_across(const ContourSet& contours) {
                                           [](const Contour& a, const Contour& b) { return length_mm(a) < length_mm(b); });
     if (longest == contours.contours.end() || longest->points.empty())
         throw Error(ErrorKind::invalid_input, "there is no contour; at least 1 is needed to say where to draw next");
-    const Plane drawn = make_plane(longest->points.front(), longest->plane.normal);
+    const Plane plane = make_plane(longest->points.front(), longest->plane.normal);
     std::vector<std::array<double, 2>> middles;
     std::vector<double> lengths;
     const std::size_t count = longest->points.size();
     for (std::size_t n = 0; n < (longest->closed ? count : count - 1); ++n) {
         const Vec3 &from = longest->points[n], &to = longest->points[(n + 1) % count];
-        middles.push_back(drawn.to_uv(0.5 * (from + to)));
+        middles.push_back(plane.to_uv(0.5 * (from + to)));
         lengths.push_back(distance(from, to));
     }
     const LongAxis axis = long_axis(middles, lengths);
-    const Vec3 along = std::cos(axis.angle) * drawn.u + std::sin(axis.angle) * drawn.v;
-    const Vec3 normal = cross(drawn.normal, along);
-    return {drawn.from_uv(axis.middle), normal, along, cross(normal, along)};
+    const Vec3 along = std::cos(axis.angle) * plane.u + std::sin(axis.angle) * plane.v;
+    const Vec3 normal = cross(plane.normal, along);
+    return {plane.from_uv(axis.middle), normal, along, cross(normal, along)};
 }
 
 }  // namespace kontur

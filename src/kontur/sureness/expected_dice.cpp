@@ -26,10 +26,10 @@ ExpectedDice expected_dice(const SurfaceEvidence& evidence, std::span<const doub
         const double slope = std::clamp(samples.slopes[n], kLeastSlope, kMostSlope);
         sum += samples.areas_mm2[n] * std::pow(h, kDice.distance) * std::pow(slope, kDice.slope) * evidence.shares[n];
     }
-    const double missed = sum * evidence.size_mm / evidence.volume_mm3;
+    const double error = sum * evidence.size_mm / evidence.volume_mm3;
     const double by_hand =
         kDice.drawing * samples.area_mm2() * evidence.disagreement_mm / (std::sqrt(2.0) * 2 * evidence.volume_mm3);
-    const double odds = std::exp(kDice.factor) * std::pow(missed, kDice.power) + by_hand;
+    const double odds = std::exp(kDice.factor) * std::pow(error, kDice.power) + by_hand;
     return {dice_of(odds), dice_of(kDice.high * odds), dice_of(kDice.low * odds)};
 }
 

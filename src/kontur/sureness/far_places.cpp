@@ -12,7 +12,7 @@ constexpr double kFar = 0.5;  // of the farthest point's distance
 constexpr double kOnALine = 1e-4;
 
 std::vector<std::vector<Vec3>> clusters(std::vector<Vec3> points, double reach_mm) {
-    std::vector<std::vector<Vec3>> found;
+    std::vector<std::vector<Vec3>> places;
     while (!points.empty()) {
         std::vector<Vec3> cluster{points.back()};
         points.pop_back();
@@ -23,9 +23,9 @@ std::vector<std::vector<Vec3>> clusters(std::vector<Vec3> points, double reach_m
             cluster.insert(cluster.end(), near, points.end());
             points.erase(near, points.end());
         }
-        found.push_back(std::move(cluster));
+        places.push_back(std::move(cluster));
     }
-    return found;
+    return places;
 }
 
 Vec3 middle_of(const std::vector<Vec3>& points) {
@@ -41,10 +41,10 @@ std::optional<Plane> plane_through_far_places(std::span<const Vec3> points, std:
     std::vector<Vec3> far;
     for (std::size_t n = 0; n < points.size(); ++n)
         if (distances_mm[n] > kFar * farthest) far.push_back(points[n]);
-    std::vector<std::vector<Vec3>> found = clusters(std::move(far), reach_mm);
-    if (found.size() < 3) return std::nullopt;
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
-    const Vec3 first = middle_of(found[0]), normal = cross(middle_of(found[1]) - first, middle_of(found[2]) - first);
+    std::vector<std::vector<Vec3>> places = clusters(std::move(far), reach_mm);
+    if (places.size() < 3) return std::nullopt;
+    std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    const Vec3 first = middle_of(places[0]), normal = cross(middle_of(places[1]) - first, middle_of(places[2]) - first);
     if (!(norm(normal) > kOnALine * reach_mm * reach_mm)) return std::nullopt;
     return make_plane(first, normal);
 }

@@ -54,10 +54,10 @@ public:
         : evidence_(evidence),
           options_(options),
           work_(work),
-          drawn_(evidence.lines.planes()),
+          avoided_(evidence.lines.planes()),
           distances_(evidence.distances_mm) {
         for (const std::vector<Plane>* some : {&empty, &options.avoid})
-            drawn_.insert(drawn_.end(), some->begin(), some->end());
+            avoided_.insert(avoided_.end(), some->begin(), some->end());
         for (std::size_t n = 0; n < distances_.size(); ++n) {
             const double slope = std::clamp(evidence.samples.slopes[n], kLeastSlope, kMostSlope);
             weights_.push_back(evidence.samples.areas_mm2[n] * evidence.shares[n] / slope);
@@ -66,7 +66,8 @@ public:
 
     /// The best plane, which counts as drawn from now on; nullopt when all are too near to drawn ones or miss the object.
     std::optional<SuggestedPlane> next(PlaneSuggestions& cost) {
-        if (options_.planes == PlaneChoice::any && planes_ >= kFirstByClusters && planes_ < kFirstByClusters + kByClusters)
+        if (options_.planes == PlaneChoice::any && plane_count_ >= kFirstByClusters &&
+            plane_count_ < kFirstByClusters + kByClusters)
             if (const auto plane =
                     plane_through_far_places(evidence_.samples.points, distances_, kClusterReach * evidence_.size_mm)) {
                 const Cut cut = cut_by(*plane, {});
@@ -80,22 +81,22 @@ public:
 
     /// A plane chosen by another rule.
     SuggestedPlane take(const Cut& cut) {
-        SuggestedPlane taken;
-        taken.plane = cut.plane;
-        taken.slice = cut.slice;
+        SuggestedPlane choice;
+        choice.plane = cut.plane;
+        choice.slice = cut.slice;
         std::int64_t count = 0;
         std::vector<double> after = distances_with(cut, count);
         const double all = remaining(distances_);
-        taken.gain = all > 0 ? gain(after) / all : 0;
+        choice.gain = all > 0 ? gain(after) / all : 0;
         if (evidence_.plane_count() >= kLeastPlanes) {
-            taken.before = expected_dice(evidence_, distances_);
-            taken.after = expected_dice(evidence_, after);
+            choice.before = expected_dice(evidence_, distances_);
+            choice.after = expected_dice(evidence_, after);
         }
-        if (!cut.line.empty()) taken.plane.origin = middle_of(cut.line);
+        if (!cut.line.empty()) choice.plane.origin = middle_of(cut.line);
         distances_ = std::move(after);
-        drawn_.push_back(cut.plane);
-        ++planes_;
-        return taken;
+        avoided_.push_back(cut.plane);
+        ++plane_count_;
+        return choice;
     }
 
     Cut cut_by(const Plane& plane, const std::optional<ImageSlice>& slice) const {
@@ -108,7 +109,7 @@ public:
     }
 
     bool is_copy(const Cut& cut) const {
-        return std::any_of(drawn_.begin(), drawn_.end(), [&](const Plane& drawn) { return copies(cut, drawn); });
+        return std::any_of(avoided_.begin(), avoided_.end(), [&](const Plane& plane) { return copies(cut, plane); });
     }
 
 private:
@@ -164,10 +165,10 @@ private:
             }
     }
 
-    bool copies(const Cut& cut, const Plane& drawn) const {
-        if (std::abs(dot(cut.plane.normal, drawn.normal)) < kAlikeCosine) return false;
+    bool copies(const Cut& cut, const Plane& plane) const {
+        if (std::abs(dot(cut.plane.normal, plane.normal)) < kAlikeCosine) return false;
         const auto near = std::count_if(cut.line.begin(), cut.line.end(), [&](const Vec3& p) {
-            return std::abs(drawn.distance_to(p)) < kNearCopy * evidence_.size_mm;
+            return std::abs(plane.distance_to(p)) < kNearCopy * evidence_.size_mm;
         });
         return static_cast<double>(near) > kMostOfCut * static_cast<double>(cut.line.size());
     }
@@ -200,9 +201,9 @@ private:
     const SurfaceEvidence& evidence_;
     const SuggestPlaneOptions& options_;
     const Work& work_;
-    std::vector<Plane> drawn_;
+    std::vector<Plane> avoided_;
     std::vector<double> distances_, weights_;
-    std::size_t planes_ = evidence_.plane_count();  ///< drawn or taken
+    std::size_t plane_count_ = evidence_.plane_count();  ///< drawn or taken
 };
 
 bool all_parallel(const std::vector<Plane>& planes) {
@@ -213,11 +214,11 @@ bool all_parallel(const std::vector<Plane>& planes) {
 
 /// The slice of the image nearest to a plane, across the axis that fits its normal best among those that lie across what was
 /// drawn.
-ImageSlice slice_like(const Grid& grid, const Plane& plane, const Plane& drawn) {
+ImageSlice slice_like(const Grid& grid, const Plane& plane, const Plane& other) {
     int best = -1;
     const auto fit = [&](int axis) { return std::abs(dot(slice_normal(grid, axis), plane.normal)); };
     for (int axis = 0; axis < 3; ++axis)
-        if (std::abs(dot(slice_normal(grid, axis), drawn.normal)) < 0.9 && (best < 0 || fit(axis) > fit(best))) best = axis;
+        if (std::abs(dot(slice_normal(grid, axis), other.normal)) < 0.9 && (best < 0 || fit(axis) > fit(best))) best = axis;
     return nearest_slice(grid, best < 0 ? 0 : best, plane.origin);
 }
 

@@ -35,14 +35,14 @@ struct PlaneSuggestions {
     std::int64_t distances = 0;          ///< computed for them: what it cost
 };
 
-/// Where to draw next. While all planes drawn are parallel: at right angles to them, through the middle of the longest
-/// contour and along its long axis. As the third and the fourth plane, unless slices of the image are asked for: through the
-/// three largest clusters of places far from what is drawn (far_places.h). After that the plane that lowers the surface's
-/// mean distance from what is drawn, each place counted by 1 / |grad f| and by what the image leaves of its error, most: the
-/// best of candidate_planes, shifted and tilted as long as that gains. Never a plane that misses the fitted surface or that
-/// runs within 3 % of the surface's diameter along a drawn or an empty one. Turns, moves and scales with the drawing; the
-/// same bytes for any number of threads. Throws Error(invalid_input) without contours, for `image_slices` without a grid,
-/// and for `count` 0.
+/// Where to draw next. While all drawn planes are parallel: at right angles to them, through the middle of the longest
+/// contour and along its long axis. As the third and fourth plane, unless slices of the image are asked for: through the
+/// three largest clusters of places far from the contours (far_places.h). After that: the plane that lowers the surface's
+/// mean distance from the contours most. Each place counts by 1 / |grad f| and by the error that the image leaves. It is the
+/// best of candidate_planes, shifted and tilted as long as that gains. Never a plane that misses the fitted surface, or runs
+/// within 3 % of its diameter along a drawn or an empty one. Turns, moves and scales with the drawing; the same bytes for
+/// any number of threads. Throws Error(invalid_input) without contours, for `image_slices` without a grid, and for `count`
+/// 0.
 PlaneSuggestions suggest_planes(const SurfaceEvidence& evidence, const ContourSet& contours, std::size_t count = 1,
                                 const SuggestPlaneOptions& options = {}, const Work& work = {});
 

@@ -38,8 +38,8 @@ public:
     double mean_slope() const { return mean_slope_; }
     static double of_slope(double slope) { return std::pow(clamped(slope), kBand.slope); }
     double half_width_mm(double distance_mm, double of_slope, double share) const {
-        const double missed = factor_mm_ * std::pow(relative(distance_mm), kBand.distance) * of_slope;
-        return std::hypot(share * missed, drawing_mm_);
+        const double error_mm = factor_mm_ * std::pow(relative(distance_mm), kBand.distance) * of_slope;
+        return std::hypot(share * error_mm, drawing_mm_);
     }
 
 private:

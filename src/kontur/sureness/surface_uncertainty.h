@@ -28,11 +28,11 @@ struct SurfaceUncertainty {
 
 SurfaceUncertainty surface_uncertainty(const SurfaceEvidence& evidence);
 
-/// Half the width in mm of the band, centred on the fitted surface, in which the true surface is expected with 90 %: at the
-/// samples. From the distance h to the nearest drawn line, |grad f|, h's mean, and how far the shape is from a ball;
-/// narrowed to what the image leaves of it, where it was used (image_shares.h); the drawing's own error (half a voxel, the
-/// residual, what contours disagree by where they cross or, where they do not, what parallel ones tell of the hand) adds in
-/// squares. Empty below `kLeastPlanes`.
+/// Half the width in mm of the band around the fitted surface that holds the true surface with 90 %, at the samples. It
+/// follows from the distance h to the nearest drawn line, |grad f|, h's mean, and the shape's difference from a ball. An
+/// image that was used narrows it (image_shares.h). The drawing's own error adds in squares: half a voxel, the residual,
+/// and the disagreement of contours where they cross, or what parallel ones tell of the hand. Empty below
+/// `kLeastPlanes`.
 std::vector<double> half_widths_mm(const SurfaceEvidence& evidence);
 
 /// The same at any points on or near the surface, such as a mesh's, with the mean of |grad f|: a k-d tree query each.

@@ -14,15 +14,15 @@ Plane view_plane(const Vec3& origin, const Vec3& towards_viewer) {
 
 Camera fit_camera(const Plane& plane, std::span<const Vec3> points, int width, int height, double margin) {
     Camera camera{plane, width, height, 1};
-    Box3 seen;
+    Box3 box;
     for (const Vec3& p : points) {
         const auto [u, v] = plane.to_uv(p);
-        seen.extend({u, v, 0});
+        box.extend({u, v, 0});
     }
-    if (seen.is_empty()) return camera;
-    camera.plane.origin = plane.from_uv(seen.center().x, seen.center().y);
+    if (box.is_empty()) return camera;
+    camera.plane.origin = plane.from_uv(box.center().x, box.center().y);
     const double free = 1 - 2 * margin;
-    const double needed = std::max(seen.size().x / (free * width), seen.size().y / (free * height));
+    const double needed = std::max(box.size().x / (free * width), box.size().y / (free * height));
     if (needed > 0) camera.pixel_mm = needed;
     return camera;
 }

@@ -28,7 +28,7 @@ public:
         for (const bool from_ends : {true, false})
             for (std::size_t s = 0; s < segments_.size(); ++s)
                 for (const int end : {0, 1}) {
-                    if (walked_[s] || (from_ends && segments_of_[segments_[s][end]].size() % 2 == 0)) continue;
+                    if (is_walked_[s] || (from_ends && segments_of_[segments_[s][end]].size() % 2 == 0)) continue;
                     if (auto line = walk(s, segments_[s][end])) result.push_back(*std::move(line));
                 }
         return result;
@@ -47,7 +47,7 @@ private:
         if (count != 2 || ends[0] == ends[1]) return;
         for (const Node end : ends) segments_of_[end].push_back(segments_.size());
         segments_.push_back(ends);
-        walked_.push_back(false);
+        is_walked_.push_back(false);
     }
 
     Node node(std::uint32_t a, std::uint32_t b) {
@@ -61,7 +61,7 @@ private:
 
     std::optional<std::size_t> unwalked_segment(Node n) const {
         for (const std::size_t s : segments_of_[n])
-            if (!walked_[s]) return s;
+            if (!is_walked_[s]) return s;
         return std::nullopt;
     }
 
@@ -70,7 +70,7 @@ private:
         Node at = start;
         append(line, at);
         for (std::optional<std::size_t> s = first; s; s = unwalked_segment(at)) {
-            walked_[*s] = true;
+            is_walked_[*s] = true;
             at = segments_[*s][0] == at ? segments_[*s][1] : segments_[*s][0];
             if (at == start) {
                 line.closed = true;
@@ -94,7 +94,7 @@ private:
     std::vector<Vec3> points_;
     std::vector<std::vector<std::size_t>> segments_of_;
     std::vector<std::array<Node, 2>> segments_;
-    std::vector<bool> walked_;
+    std::vector<bool> is_walked_;
 };
 
 }  // namespace

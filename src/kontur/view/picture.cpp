@@ -60,10 +60,10 @@ std::string volume(const TriangleMesh& mesh) { return in_ml(signed_volume_mm3(me
 
 /// Without contours only the surface, which came without them.
 std::string subtitle(const TriangleMesh& mesh, const ContourSet& contours, bool has_surface) {
-    const std::string drawn = counted(contours.contours.size(), "drawn contour");
-    if (!has_surface) return drawn;
+    const std::string contour_text = counted(contours.contours.size(), "drawn contour");
+    if (!has_surface) return contour_text;
     const std::string surface = "surface of " + volume(mesh);
-    return contours.contours.empty() ? surface : surface + " from " + drawn;
+    return contours.contours.empty() ? surface : surface + " from " + contour_text;
 }
 
 std::string extent(const TriangleMesh& mesh) {

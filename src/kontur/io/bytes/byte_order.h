@@ -10,6 +10,9 @@
 
 namespace kontur {
 
+/// Of formats that store numbers so on every machine.
+inline constexpr bool kBigEndian = true;
+
 /// A number as it stands in a file. Internal to io, as is the rest of this file.
 template <typename Stored>
 Stored load(const unsigned char* bytes, bool big_endian) {

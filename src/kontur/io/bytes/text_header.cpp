@@ -10,8 +10,6 @@
 namespace kontur {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n\f\v";
-
 template <typename Value>
 std::optional<Value> parse_all(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);

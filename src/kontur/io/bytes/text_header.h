@@ -14,6 +14,9 @@
 
 namespace kontur {
 
+/// What separates words in text.
+inline constexpr std::string_view kBlanks = " \t\r\n\f\v";
+
 /// The fields of a header made of text lines, as NRRD and MetaImage have. Internal to io.
 class TextHeader {
 public:

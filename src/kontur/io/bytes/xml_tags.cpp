@@ -8,7 +8,7 @@
 namespace kontur {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kXmlBlanks = " \t\r\n";
 constexpr std::size_t kMostAttributes = 64;
 
 [[noreturn]] void corrupt(const std::string& reason) { throw Error(ErrorKind::corrupt_file, reason); }
@@ -19,7 +19,7 @@ std::string_view take_until(std::string_view& text, std::string_view any_of) {
     return taken;
 }
 
-void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size())); }
+void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(kXmlBlanks), text.size())); }
 
 /// NAME="VALUE" or NAME='VALUE'.
 void take_attribute(std::string_view& text, XmlTag& tag) {
@@ -82,7 +82,7 @@ std::optional<XmlTag> XmlTags::next() {
     if (!tag.opens) inside.remove_prefix(1);
     tag.is_empty = inside.ends_with('/');
     if (tag.is_empty) inside.remove_suffix(1);
-    tag.name = take_until(inside, kBlanks);
+    tag.name = take_until(inside, kXmlBlanks);
     for (skip_blanks(inside); tag.opens && !inside.empty(); skip_blanks(inside)) take_attribute(inside, tag);
     tag.text = left_.substr(0, std::min(left_.find('<'), left_.size()));
     return tag;

@@ -11,6 +11,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/bytes/atomic_file.h"
+#include "kontur/io/dicom/dicom_names.h"
 #include "kontur/io/dicom/dicom_uid.h"
 
 namespace kontur::dcmtk {
@@ -126,7 +127,6 @@ std::string description_with_names(const std::string& given, const std::string& 
 
 void put_contribution(DcmItem& document, const Provenance& provenance) {
     if (provenance.empty()) return;
-    constexpr std::size_t kMostCharacters = 1024;
     std::string text;
     for (const auto& [name, value] : provenance) {
         text += (text.empty() ? "" : "; ") + name + ": ";
@@ -137,7 +137,7 @@ void put_contribution(DcmItem& document, const Provenance& provenance) {
     put(item, DCM_Manufacturer, "kontur");
     put(item, DCM_ManufacturerModelName, "kontur");
     put(item, DCM_SoftwareVersions, KONTUR_VERSION);
-    put(item, DCM_ContributionDescription, one_value(text, kMostCharacters));
+    put(item, DCM_ContributionDescription, one_value(text, kMostTextCharacters));
 }
 
 void put_file_reference(DcmItem& item, const DicomHeader& slice) {

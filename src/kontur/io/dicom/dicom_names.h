@@ -11,6 +11,9 @@
 
 namespace kontur::dcmtk {
 
+/// Characters of free text, VR ST (PS3.5 table 6.2-1).
+inline constexpr std::size_t kMostTextCharacters = 1024;
+
 /// `one_value` of the text. Adds a sentence to `notes` where that is another text; `what` is its subject, such as "the name
 /// of ROI 2".
 std::string noted_value(std::string_view text, std::size_t max_characters, const std::string& what,

@@ -27,7 +27,6 @@ using dcmtk::put_code;
 using dcmtk::put_file_reference;
 using dcmtk::put_image_reference;
 
-constexpr std::size_t kMostDescription = 1024;               ///< characters, of VR ST
 constexpr dcmtk::Code kTissue{"85756007", "SCT", "Tissue"};  // what other programs write for want of a better word
 constexpr dcmtk::Code kSegmentation{"113076", "DCM", "Segmentation"};
 constexpr dcmtk::Code kSource{"121322", "DCM", "Source image for image processing operation"};
@@ -179,7 +178,7 @@ public:
         const auto of_segment = [&](const char* what) { return fmt::format("the {} of segment '{}'", what, name); };
         if (!segment.description.empty())
             put(item, DCM_SegmentDescription,
-                dcmtk::noted_text(segment.description, kMostDescription, of_segment("description"), notes));
+                dcmtk::noted_text(segment.description, dcmtk::kMostTextCharacters, of_segment("description"), notes));
         put(item, DCM_SegmentAlgorithmType, segment.algorithm_type);
         if (segment.algorithm_type != "MANUAL")
             put(item, DCM_SegmentAlgorithmName,

@@ -170,7 +170,7 @@ void check_size(const Grid& grid, std::int64_t max_voxels) {
 }
 
 /// The chosen stack with its grid and all that is to be told.
-struct Located {
+struct ChosenStack {
     DicomStack stack;
     Grid grid;
     std::vector<std::string> notes, warnings;
@@ -186,10 +186,10 @@ void append(std::vector<std::string>& all, std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
-Located locate_in(DicomContent content, const DicomSeriesOptions& options, const std::optional<fs::path>& file) {
+ChosenStack locate_in(DicomContent content, const DicomSeriesOptions& options, const std::optional<fs::path>& file) {
     const std::optional<std::string> series = named_series(content, options, file);
     if (series) refuse_damage_of(*series, content);
-    Located result;
+    ChosenStack result;
     result.stack = choose(content.stacks, options, file);
     const std::string chosen = series_of(result.stack);
     refuse_damage_of(chosen, content);
@@ -207,7 +207,7 @@ Located locate_in(DicomContent content, const DicomSeriesOptions& options, const
     return result;
 }
 
-Located locate(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
+ChosenStack locate(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
     check_at_least("the limit of voxels", options.max_voxels, 1);
     std::error_code ignored;
     const bool is_folder = fs::is_directory(path, ignored);
@@ -263,7 +263,7 @@ Image read_dicom_slice(const fs::path& file, std::int64_t frame) {
 }
 
 DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
-    Located located = locate(path, options, work);
+    ChosenStack located = locate(path, options, work);
     check_pixel_formats(located.stack);
     if (located.stack.slices.front().photometric_interpretation == "MONOCHROME1")
         located.notes.push_back("MONOCHROME1: shown with low values bright elsewhere; the values are kept as they are");
@@ -276,7 +276,7 @@ DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& op
 }
 
 DicomGrid read_dicom_grid(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
-    Located located = locate(path, options, work);
+    ChosenStack located = locate(path, options, work);
     return {located.grid, describe(located.stack), std::move(located.notes), std::move(located.warnings)};
 }
 

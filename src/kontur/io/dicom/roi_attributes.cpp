@@ -20,8 +20,7 @@ using dcmtk::append_item;
 using dcmtk::put;
 using dcmtk::text;
 
-constexpr std::size_t kMostKeyword = 16;        ///< characters, of VR CS
-constexpr std::size_t kMostDescription = 1024;  ///< of VR ST
+constexpr std::size_t kMostKeyword = 16;  ///< characters, of VR CS
 
 std::optional<std::array<std::uint8_t, 3>> read_color(DcmItem& roi_contour) {
     const std::vector<double> values = dcmtk::decimals(roi_contour, DCM_ROIDisplayColor);
@@ -76,7 +75,8 @@ StructureAttributes storable(StructureAttributes attributes, const std::string& 
     const auto of_roi = [&](const char* what) { return fmt::format("the {} of ROI '{}'", what, roi); };
     attributes.interpreted_type = keyword(attributes.interpreted_type, of_roi("type"), notes);
     attributes.generation_algorithm = keyword(attributes.generation_algorithm, of_roi("generation algorithm"), notes);
-    attributes.description = dcmtk::noted_text(attributes.description, kMostDescription, of_roi("description"), notes);
+    attributes.description =
+        dcmtk::noted_text(attributes.description, dcmtk::kMostTextCharacters, of_roi("description"), notes);
     if (attributes.code) attributes.code = dcmtk::storable(*attributes.code, of_roi("code"), notes);
     for (PhysicalProperty& one : attributes.physical_properties) {
         one.property = keyword(one.property, of_roi("physical property"), notes);

@@ -15,7 +15,6 @@ namespace kontur {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr bool kBigEndian = true;
 constexpr std::size_t kHeaderBytes = 256;
 
 /// Where the fields stand.

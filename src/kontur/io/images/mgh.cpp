@@ -27,7 +27,6 @@ namespace kontur {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr bool kBigEndian = true;
 constexpr std::size_t kHeaderBytes = 284;
 constexpr std::size_t kScanBytes =
     20;  ///< behind the voxels: repetition, echo and inversion time, flip angle, field of view
@@ -121,11 +120,11 @@ OpenImage open_mgh(const fs::path& path, const ReadImageOptions& options) {
 template <typename Value>
 using StoredAs = std::conditional_t<std::is_same_v<Value, std::uint16_t>, std::int32_t, Value>;
 
-template <typename Stored>
+template <typename FileValue>
 constexpr std::int32_t type_code() {
-    if constexpr (std::is_same_v<Stored, std::uint8_t>) return 0;
-    else if constexpr (std::is_same_v<Stored, std::int32_t>) return 1;
-    else if constexpr (std::is_same_v<Stored, float>) return 3;
+    if constexpr (std::is_same_v<FileValue, std::uint8_t>) return 0;
+    else if constexpr (std::is_same_v<FileValue, std::int32_t>) return 1;
+    else if constexpr (std::is_same_v<FileValue, float>) return 3;
     else return 4;
 }
 
@@ -161,13 +160,13 @@ void put_samples(const ImageView& image, const Put& put) {
     constexpr std::size_t kChunk = std::size_t{1} << 16;
     std::visit(
         [&]<typename Value>(std::span<const Value> values) {
-            using Stored = StoredAs<Value>;
+            using FileValue = StoredAs<Value>;
             std::vector<unsigned char> bytes;
             for (std::size_t begin = 0; begin < values.size(); begin += kChunk) {
                 const auto chunk = values.subspan(begin, std::min(kChunk, values.size() - begin));
-                bytes.resize(chunk.size() * sizeof(Stored));
+                bytes.resize(chunk.size() * sizeof(FileValue));
                 for (std::size_t n = 0; n < chunk.size(); ++n)
-                    store(static_cast<Stored>(chunk[n]), kBigEndian, &bytes[n * sizeof(Stored)]);
+                    store(static_cast<FileValue>(chunk[n]), kBigEndian, &bytes[n * sizeof(FileValue)]);
                 put(std::as_bytes(std::span(bytes)));
             }
         },

@@ -21,7 +21,7 @@
 #include "kontur/io/images/image_files.h"
 #include "kontur/io/images/nifti_extensions.h"
 #include "kontur/io/images/nifti_header.h"
-#include "kontur/io/images/transform_needed.h"
+#include "kontur/io/images/transform_choice_error.h"
 #include "kontur/io/images/voxel_stream.h"
 
 namespace kontur {
@@ -177,7 +177,7 @@ Affine3 chosen_affine(const NiftiHeader& header, const Index3& size, const fs::p
         check_both(by_sform, by_qform, header, path);
         const double difference = corner_distance_mm(by_sform, by_qform);
         if (!(difference <= kAgreementMm))
-            throw TransformNeeded(
+            throw TransformChoiceError(
                 path.string() + ": its sform and qform differ by " + millimetres(difference) +
                 " at a corner (limit 0.1 mm); say which one counts with the option prefer (sform or qform)");
     }

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
-#include "kontur/io/images/frame_needed.h"
+#include "kontur/io/images/frame_choice_error.h"
 
 namespace kontur {
 namespace {
@@ -245,9 +245,9 @@ std::int64_t chosen_component(const OpenImage& image, const std::optional<std::i
     const std::int64_t count = image.encoding.components;
     const std::string name = image.data.path().string();
     if (!frame && count > 1)
-        throw FrameNeeded(name + " has " + std::to_string(count) + " frames; choose one with the option frame (1 to " +
-                              std::to_string(count) + ")",
-                          count);
+        throw FrameChoiceError(name + " has " + std::to_string(count) + " frames; choose one with the option frame (1 to " +
+                                   std::to_string(count) + ")",
+                               count);
     if (frame && (*frame < 1 || *frame > count))
         throw Error(ErrorKind::invalid_input, "frame " + std::to_string(*frame) + " of " + name +
                                                   " was asked for, but it has frames 1 to " + std::to_string(count));

@@ -11,6 +11,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/input_file.h"
+#include "kontur/io/bytes/text_header.h"
 #include "kontur/io/meshes/mesh_formats.h"
 
 namespace kontur {
@@ -61,7 +62,6 @@ void append_polygon(TriangleMesh& mesh, const std::vector<std::uint32_t>& corner
 }
 
 std::string_view take_word(std::string_view& text) {
-    constexpr std::string_view kBlanks = " \t\r\n\v\f";
     text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
     const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
     text.remove_prefix(word.size());

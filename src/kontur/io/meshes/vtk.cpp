@@ -16,7 +16,6 @@
 namespace kontur {
 namespace {
 
-constexpr bool kBigEndian = true;  // of the legacy format, everywhere
 constexpr std::size_t kMostTitle = 255;
 
 [[noreturn]] void corrupt(const std::string& reason) { throw Error(ErrorKind::corrupt_file, reason); }

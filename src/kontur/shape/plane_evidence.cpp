@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/shape/seen_inside.h"
+#include "kontur/shape/plane_evidence.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,6 @@
 namespace kontur {
 namespace {
 
-constexpr double kMost = 0.5;
 constexpr double kLeastSine = 0.0087;  // half a degree: planes that cross less have no common line
 
 /// How much of a way, or of an area, was looked at, and how much of that is object.
@@ -16,7 +15,9 @@ struct Share {
     double object = 0, all = 0;
 
     double value() const { return object / all; }
-    Seen seen() const { return all == 0 ? Seen::nothing : value() > kMost ? Seen::object : Seen::no_object; }
+    PlaneEvidence evidence() const {
+        return all == 0 ? PlaneEvidence::nothing : value() > 0.5 ? PlaneEvidence::object : PlaneEvidence::no_object;
+    }
 };
 
 /// Along the ways of another plane through what the outline encloses.
@@ -24,17 +25,17 @@ void look_along(const Section& outline, const Section& other, Share& share) {
     constexpr int kPlaces = 16;
     const Vec3 direction = cross(outline.plane.normal, other.plane.normal);
     if (norm(direction) < kLeastSine) return;
-    std::vector<Vec3> passed;
+    std::vector<Vec3> passages;
     for_each_edge(outline.outlines.front(), [&](const Point2& from, const Point2& to) {
         const Vec3 a = outline.plane.from_uv(from), b = outline.plane.from_uv(to);
         const double before = other.plane.distance_to(a), after = other.plane.distance_to(b);
-        if ((before >= 0) != (after >= 0)) passed.push_back(a + before / (before - after) * (b - a));
+        if ((before >= 0) != (after >= 0)) passages.push_back(a + before / (before - after) * (b - a));
     });
-    std::ranges::sort(passed, {}, [&](const Vec3& p) { return dot(p, direction); });
-    for (std::size_t i = 0; i + 1 < passed.size(); i += 2)
+    std::ranges::sort(passages, {}, [&](const Vec3& p) { return dot(p, direction); });
+    for (std::size_t i = 0; i + 1 < passages.size(); i += 2)
         for (int place = 0; place < kPlaces; ++place) {
-            const Vec3 at = passed[i] + (place + 0.5) / kPlaces * (passed[i + 1] - passed[i]);
-            const double weight = distance(passed[i], passed[i + 1]) / kPlaces;
+            const Vec3 at = passages[i] + (place + 0.5) / kPlaces * (passages[i + 1] - passages[i]);
+            const double weight = distance(passages[i], passages[i + 1]) / kPlaces;
             share.all += weight;
             if (other.contains(other.plane.to_uv(at))) share.object += weight;
         }
@@ -79,7 +80,7 @@ const Section* next_parallel(const Section& outline, const std::vector<Section>&
 /// depth those behind it go on to show it.
 struct Beyond {
     bool is_over_a_doubt = false;
-    Seen shown = Seen::nothing;
+    PlaneEvidence evidence = PlaneEvidence::nothing;
     double depth_mm = 0;
 };
 
@@ -95,9 +96,10 @@ Beyond look_beyond(const Section& outline, const std::vector<Section>& sections,
     beyond.is_over_a_doubt = !ahead.empty() && doubtful[ahead.front().second];
     if (beyond.is_over_a_doubt) ahead.erase(ahead.begin());
     for (const auto& [mm, s] : ahead) {
-        const Seen seen = doubtful[s] ? Seen::no_object : look_across(outline, sections[s]).seen();  // it may be one
-        if (s == ahead.front().second) beyond.shown = seen;
-        if (seen != beyond.shown) break;
+        const PlaneEvidence evidence =
+            doubtful[s] ? PlaneEvidence::no_object : look_across(outline, sections[s]).evidence();  // it may be one
+        if (s == ahead.front().second) beyond.evidence = evidence;
+        if (evidence != beyond.evidence) break;
         beyond.depth_mm = mm - ahead.front().first;
     }
     return beyond;
@@ -105,30 +107,31 @@ Beyond look_beyond(const Section& outline, const std::vector<Section>& sections,
 
 }  // namespace
 
-Seen seen_inside(const Contour& contour, const std::vector<Section>& sections, std::size_t own) {
+PlaneEvidence evidence_inside(const Contour& contour, const std::vector<Section>& sections, std::size_t own) {
     const Section outline = section_of(contour, sections[own].plane);
     Share along;
     for (const Section& other : sections)
         if (&other != &sections[own]) look_along(outline, other, along);
-    if (along.all > 0) return along.seen();
+    if (along.all > 0) return along.evidence();
     const Section *before = next_parallel(outline, sections, own, -1), *behind = next_parallel(outline, sections, own, 1);
-    if (!before || !behind) return Seen::nothing;
-    const Seen one = look_across(outline, *before).seen();
-    return one == look_across(outline, *behind).seen() ? one : Seen::nothing;
+    if (!before || !behind) return PlaneEvidence::nothing;
+    const PlaneEvidence one = look_across(outline, *before).evidence();
+    return one == look_across(outline, *behind).evidence() ? one : PlaneEvidence::nothing;
 }
 
-Seen seen_beyond(const Contour& contour, const std::vector<Section>& sections, std::size_t own,
-                 const std::vector<bool>& doubtful, double wall_mm) {
+PlaneEvidence evidence_beyond(const Contour& contour, const std::vector<Section>& sections, std::size_t own,
+                              const std::vector<bool>& doubtful, double wall_mm) {
     constexpr double kWalls = 3;
     const Section outline = section_of(contour, sections[own].plane);
     const Beyond before = look_beyond(outline, sections, own, doubtful, -1),
                  behind = look_beyond(outline, sections, own, doubtful, 1);
-    if (before.shown == Seen::no_object || behind.shown == Seen::no_object) return Seen::nothing;
-    if (before.is_over_a_doubt && behind.is_over_a_doubt) return Seen::nothing;
+    if (before.evidence == PlaneEvidence::no_object || behind.evidence == PlaneEvidence::no_object)
+        return PlaneEvidence::nothing;
+    if (before.is_over_a_doubt && behind.is_over_a_doubt) return PlaneEvidence::nothing;
     const auto is_solid = [&](const Beyond& side) {
-        return side.shown == Seen::object && side.depth_mm >= kWalls * wall_mm;
+        return side.evidence == PlaneEvidence::object && side.depth_mm >= kWalls * wall_mm;
     };
-    return is_solid(before) || is_solid(behind) ? Seen::object : Seen::nothing;
+    return is_solid(before) || is_solid(behind) ? PlaneEvidence::object : PlaneEvidence::nothing;
 }
 
 }  // namespace kontur

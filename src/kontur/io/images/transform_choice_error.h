@@ -8,9 +8,9 @@
 namespace kontur {
 
 /// A NIfTI file says in two ways where its voxels lie, which differ, and none was chosen: Error(unsupported).
-class TransformNeeded : public Error {
+class TransformChoiceError : public Error {
 public:
-    explicit TransformNeeded(std::string_view message) : Error(ErrorKind::unsupported, message) {}
+    explicit TransformChoiceError(std::string_view message) : Error(ErrorKind::unsupported, message) {}
 };
 
 }  // namespace kontur

@@ -9,9 +9,10 @@
 namespace kontur {
 
 /// A file has several frames, and none was chosen: Error(unsupported) that says how many there are.
-class FrameNeeded : public Error {
+class FrameChoiceError : public Error {
 public:
-    FrameNeeded(std::string_view message, std::int64_t frames) : Error(ErrorKind::unsupported, message), frames_(frames) {}
+    FrameChoiceError(std::string_view message, std::int64_t frames)
+        : Error(ErrorKind::unsupported, message), frames_(frames) {}
 
     /// They count from 0.
     std::int64_t frames() const noexcept { return frames_; }

@@ -240,11 +240,19 @@ def test_no_surface_of_contours_from_before_is_told_as_finished(server):
         page.do("contour.translate", id=ids[1], by=[choose.choice((-1, 1)) * (1 + n / 64), 0, 0])
         time.sleep(choose.uniform(0, 0.3))
         page.do("ping")
+        is_told = was_early = False
         for event in page.events:
-            assert not (event["event"] == "changed" and is_finished)
-            if event["event"] == "surface":
+            if event["event"] == "changed":
+                assert is_told or not is_finished
+                was_early = is_finished
+            elif event["event"] == "surface":
+                is_told = is_told or event["stage"] == "outdated"
                 is_finished = event["stage"] == "finished"
         page.events.clear()
+        if was_early:  # its own surface, done while a busy machine stored the change: no other one follows
+            time.sleep(1)
+            page.do("ping")
+            assert not [event for event in page.events if event["event"] == "surface"]
 
 
 def test_contours_are_listed_in_their_own_slice_only(server):

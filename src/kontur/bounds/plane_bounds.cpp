@@ -145,15 +145,24 @@ private:
             if (share * apart_mm >= nearest &&
                 surely((2 - crossing) * apart_mm / clear) <= std::min(shown_before, shown_behind))
                 continue;
+            double before = 0, behind = 0;
             other.places.visit_within(place, clear, [&](const Vec3& shown) {
                 const double apart = distance(shown, place);
                 if (apart == 0) return;
                 nearest = std::min(nearest, share * apart);
                 const double ahead = dot(shown - place, normal_);
-                double& side = ahead > 0 ? shown_before : shown_behind;
+                double& side = ahead > 0 ? before : behind;
                 if (const double most = surely((2 - crossing) * apart / clear); most > side)
                     side = std::max(side, most * smooth_step(0, 0.5, std::abs(ahead / apart)));
             });
+            if (before > 0 && behind > 0 && !other.search.contains(other.section.plane.to_uv(place))) {
+                // One plane shows both sides, and the gap between them.
+                const double least = std::min(before, behind);
+                before -= least;
+                behind -= least;
+            }
+            shown_before = std::max(shown_before, before);
+            shown_behind = std::max(shown_behind, behind);
         }
         return {nearest, 1 - shown_before * shown_behind};
     }

@@ -139,6 +139,11 @@ export class Pushing {
 
   private ofOutline(screen: Screen, outline: FreeOutline): Target {
     const contour = (line: readonly BrushPoint[]) => this.changes.outlines.contour(screen, outline, this.world(screen, outline, line), "pushed");
-    return { points: outline.points, isClosed: true, draft: (line) => this.changes.outlines.draft(contour(line)), make: (line) => this.changes.outlines.add(contour(line)) };
+    return {
+      points: outline.points,
+      isClosed: true,
+      draft: (line) => this.changes.outlines.draft(contour(line)),
+      make: (line) => this.changes.outlines.add(contour(line)),
+    };
   }
 }

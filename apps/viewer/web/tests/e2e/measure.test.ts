@@ -11,18 +11,20 @@ let viewer: Viewer;
 const SMALL_MM = 15;
 
 /** The ball, and a smaller one of a structure of its own in its middle. */
-beforeEach(async () => {
-  viewer = await visits.next();
-  await viewer.page.keyboard.press("f");
+async function draw(empty: Viewer): Promise<void> {
+  await empty.page.keyboard.press("f");
   let contours = 0;
   for (const radius of [BALL_RADIUS_MM, SMALL_MM]) {
-    if (radius === SMALL_MM) await viewer.addStructure();
+    if (radius === SMALL_MM) await empty.addStructure();
     for (const view of ["axial", "coronal"]) {
-      await viewer.drag(view, circle(await viewer.pixels(view, radius), 36));
-      await viewer.waitForContours(++contours);
+      await empty.drag(view, circle(await empty.pixels(view, radius), 36));
+      await empty.waitForContours(++contours);
     }
   }
-  await viewer.surfaceShown();
+}
+
+beforeEach(async () => {
+  viewer = await visits.nextDrawn(draw);
 });
 
 describe("all structures", () => {

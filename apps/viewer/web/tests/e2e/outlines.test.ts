@@ -14,16 +14,15 @@ const FITTED_MM = Math.sqrt(BALL_RADIUS_MM ** 2 - HEIGHT_MM ** 2);
 
 /** The ball, drawn on the axial and the coronal slice through its middle; the axial view shows another slice. */
 beforeEach(async () => {
-  viewer = await visits.next();
+  viewer = await visits.nextDrawn(async (empty) => {
+    await empty.page.keyboard.press("f");
+    for (const [i, view] of (["axial", "coronal"] as const).entries()) {
+      await empty.drag(view, circle(await empty.pixels(view, BALL_RADIUS_MM), 36));
+      await empty.waitForContours(i + 1);
+    }
+  });
   const { page } = viewer;
-  await page.keyboard.press("f");
-  for (const [i, view] of (["axial", "coronal"] as const).entries()) {
-    await viewer.drag(view, circle(await viewer.pixels(view, BALL_RADIUS_MM), 36));
-    await viewer.waitForContours(i + 1);
-  }
-  await viewer.saved();
   await page.keyboard.press("v");
-  await viewer.surfaceShown();
   await page.mouse.move(...(await viewer.at("axial", 0, 90)));
   for (let i = 0; i < SLICES; ++i) await page.mouse.wheel(0, 100);
   await viewer.slicesShown();

@@ -9,16 +9,14 @@ import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
 
 const visits = new BallVisits();
 
-async function opened(): Promise<Viewer> {
-  const viewer = await visits.next();
-  await viewer.page.keyboard.press("f");
-  for (const view of ["axial", "coronal"]) {
-    await viewer.drag(view, circle(await viewer.pixels(view, BALL_RADIUS_MM), 48));
-    await viewer.waitForContours(view === "axial" ? 1 : 2);
-  }
-  await viewer.surfaceShown();
-  return viewer;
-}
+const opened = (): Promise<Viewer> =>
+  visits.nextDrawn(async (empty) => {
+    await empty.page.keyboard.press("f");
+    for (const view of ["axial", "coronal"]) {
+      await empty.drag(view, circle(await empty.pixels(view, BALL_RADIUS_MM), 48));
+      await empty.waitForContours(view === "axial" ? 1 : 2);
+    }
+  });
 
 const points = (viewer: Viewer) => viewer.page.locator("[data-test=single-point]");
 const place = async (viewer: Viewer, row: number) => (await points(viewer).nth(row).locator("button").first().textContent())!;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { spawn, spawnSync, type ChildProcess } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdtempSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
@@ -182,13 +182,44 @@ export class BallVisits {
 
   /** Ends the visit before, and forgets how its page was arranged. */
   async next(): Promise<Viewer> {
-    await this.viewer?.page.close();
-    await (this.server as Server | undefined)?.end();
+    const viewer = await this.visit();
+    await viewer.closeHint();
+    return viewer;
+  }
+
+  /** The same with what `draw` draws in an empty project, which it does once for all visits; the surface is shown. */
+  async nextDrawn(draw: (viewer: Viewer) => Promise<void>): Promise<Viewer> {
+    const drawn = join(this.folder.path, "drawn.kontur");
+    if (!existsSync(drawn)) {
+      const first = await this.next();
+      await draw(first);
+      await first.saved();
+      await this.end();
+      renameSync(this.project, drawn);
+    }
+    const viewer = await this.visit(drawn);
+    await viewer.surfaceShown();
+    return viewer;
+  }
+
+  private get project(): string {
+    return join(this.folder.path, `visit${this.count}.kontur`);
+  }
+
+  private async visit(from?: string): Promise<Viewer> {
+    await this.end();
+    ++this.count;
+    if (from !== undefined) copyFileSync(from, this.project);
     rmSync(join(this.folder.path, "kontur", "arrangements.json"), { force: true });
-    this.server = await Server.start(this.folder.path, this.image, "--project", join(this.folder.path, `visit${++this.count}.kontur`));
+    this.server = await Server.start(this.folder.path, this.image, "--project", this.project);
     this.viewer = await Viewer.open(this.browser, this.server.address);
-    await this.viewer.closeHint();
     return this.viewer;
+  }
+
+  private async end(): Promise<void> {
+    await this.viewer?.page.close();
+    this.viewer = undefined;
+    await (this.server as Server | undefined)?.end();
   }
 }
 

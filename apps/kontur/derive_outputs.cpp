@@ -25,9 +25,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw Error(ErrorKind::invalid_input, sentence); }
 
-/// Of structures whose source has no colour.
-constexpr std::array<std::array<std::uint8_t, 3>, 6> kColors{
-    {{217, 102, 102}, {77, 153, 230}, {102, 191, 102}, {230, 179, 77}, {166, 128, 204}, {128, 204, 204}}};
 constexpr std::array kTypes{"GTV", "CTV", "PTV", "ORGAN", "AVOIDANCE", "EXTERNAL"};
 
 struct NamedType {
@@ -119,8 +116,6 @@ DicomSegment derived_segment(const std::string& name, const StructureAttributes&
     return segment;
 }
 
-std::array<std::uint8_t, 3> structure_color(std::size_t n) { return kColors[n % kColors.size()]; }
-
 void check_types(const std::vector<std::string>& types) {
     for (const std::string& words : types) named_type(words);
 }
@@ -146,8 +141,9 @@ std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const Der
         if (auto& color = all[n].outlines.attributes.color; !color) color = structure_color(n);
     for (const std::string& words : command.types) {
         const auto [name, type] = named_type(words);
-        const auto found =
-            std::find_if(all.begin(), all.end(), [&, &its_name = name](const DeriveOutput& one) { return one.outlines.name == its_name; });
+        const auto found = std::find_if(all.begin(), all.end(), [&, &its_name = name](const DeriveOutput& one) {
+            return one.outlines.name == its_name;
+        });
         if (found == all.end()) refuse(fmt::format("--type is for '{}', which is not written", name));
         found->outlines.attributes.interpreted_type = type;
     }
@@ -173,7 +169,8 @@ std::vector<std::string> write_derived_rtstruct(const fs::path& path, const Deri
     std::vector<std::string> notes;
     std::vector<ContourSet> sets;
     for (const DeriveOutput& one : all) {
-        if (one.outlines.contours.empty()) notes.push_back(fmt::format("'{}' has no contours and is no ROI", one.outlines.name));
+        if (one.outlines.contours.empty())
+            notes.push_back(fmt::format("'{}' has no contours and is no ROI", one.outlines.name));
         else sets.push_back(one.outlines);
     }
     if (sets.empty()) refuse("no structure has a contour, and an RTSTRUCT needs at least 1 that has");
@@ -188,10 +185,10 @@ void write_relations(const fs::path& path, const std::vector<StructureRelation>&
         "a,b,volume_a_ml,volume_b_ml,overlap_ml,least_distance_mm,a_beyond_b_mm,a_beyond_b_x,a_beyond_b_y,a_beyond_b_z,"
         "b_beyond_a_mm,b_beyond_a_x,b_beyond_a_y,b_beyond_a_z\n";
     for (const StructureRelation& one : relations)
-        text += fmt::format("{},{},{:.4g},{:.4g},{:.4g},{},{},{}\n", cell(one.a), cell(one.b), one.volume_a_ml,
-                            one.volume_b_ml, one.overlap_ml,
-                            one.least_distance_mm ? fmt::format("{:.4g}", *one.least_distance_mm) : "",
-                            farthest_cells(one.a_beyond_b_mm, one.a_beyond_b), farthest_cells(one.b_beyond_a_mm, one.b_beyond_a));
+        text += fmt::format(
+            "{},{},{:.4g},{:.4g},{:.4g},{},{},{}\n", cell(one.a), cell(one.b), one.volume_a_ml, one.volume_b_ml,
+            one.overlap_ml, one.least_distance_mm ? fmt::format("{:.4g}", *one.least_distance_mm) : "",
+            farthest_cells(one.a_beyond_b_mm, one.a_beyond_b), farthest_cells(one.b_beyond_a_mm, one.b_beyond_a));
     write_file_atomically(path, text);
 }
 

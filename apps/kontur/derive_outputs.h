@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -27,8 +26,6 @@ std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const Der
 /// What is said of a derived structure beside its voxels; without a colour.
 StructureAttributes derived_attributes(const DerivedStructure& derived);
 DicomSegment derived_segment(const std::string& name, const StructureAttributes& attributes);
-/// Of the n-th structure, where its source has none.
-std::array<std::uint8_t, 3> structure_color(std::size_t n);
 
 /// Throws Error for what `--type` cannot mean.
 void check_types(const std::vector<std::string>& types);

@@ -8,6 +8,7 @@
 #include "kontur/base/error.h"
 #include "kontur/derive/derive.h"
 #include "rules_file.h"
+#include "structures.h"
 
 namespace kontur::app {
 
@@ -19,8 +20,7 @@ void check_roi_derivation(const SegmentCommand& command, const RoiDrawings& draw
 
 void add_derived_rois(const SegmentCommand& command, const RoiDrawings& drawings, RoiResults& results, const Work& work) {
     const std::vector<std::string> rules = read_rules_file(command.rules);
-    std::vector<DerivedStructure> made =
-        derive(rules, results.for_rules, drawings.image ? &*drawings.image : nullptr, work);
+    std::vector<DerivedStructure> made = derive(rules, results.for_rules, drawings.image ? &*drawings.image : nullptr, work);
     for (DerivedStructure& one : made) {
         FittedRoi derived;
         derived.rule = one.rule;

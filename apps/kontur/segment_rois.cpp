@@ -27,6 +27,7 @@
 #include "outputs.h"
 #include "roi_drawings.h"
 #include "roi_outputs.h"
+#include "structures.h"
 
 namespace kontur::app {
 namespace {
@@ -34,10 +35,6 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw Error(ErrorKind::invalid_input, sentence); }
-
-/// Colours of structures whose ROI has none.
-constexpr std::array<std::array<std::uint8_t, 3>, 6> kColors{
-    {{230, 179, 77}, {77, 153, 230}, {102, 191, 102}, {217, 102, 102}, {166, 128, 204}, {128, 204, 204}}};
 
 /// What all fits say once, what differs with the label's number behind its name.
 Provenance together(const std::vector<FittedRoi>& all) {
@@ -68,7 +65,7 @@ ContourSet slice_outlines(const BoxedMask& object, const Grid& grid) {
 FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& result) {
     const Roi& roi = drawings.rois[n];
     StructureAttributes attributes = fitted_attributes(roi.contours.attributes);
-    if (!attributes.color) attributes.color = kColors[n % kColors.size()];
+    if (!attributes.color) attributes.color = structure_color(n);
     FittedRoi fitted;
     fitted.segment = fitted_segment(attributes);
     fitted.segment.label = roi.name;

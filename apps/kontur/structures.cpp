@@ -76,7 +76,19 @@ std::string stem(const fs::path& path) {
     return printable_utf8(name.substr(0, name.find('.', 1)));
 }
 
+/// As masks of several labels have them in .seg.nrrd.
+constexpr std::array<std::array<std::uint8_t, 3>, 8> kColors{{kStructureColor,
+                                                              {77, 153, 230},
+                                                              {102, 191, 102},
+                                                              {217, 102, 102},
+                                                              {166, 128, 204},
+                                                              {128, 204, 204},
+                                                              {230, 140, 191},
+                                                              {153, 153, 115}}};
+
 }  // namespace
+
+std::array<std::uint8_t, 3> structure_color(std::size_t n) { return kColors[n % kColors.size()]; }
 
 Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work) {
     if (label && is_dicom_seg(input.path)) {
@@ -128,7 +140,8 @@ std::vector<LabelName> label_names(const ImageInput& source) {
         return names;
     }
     if (has_extension(source.path, ".nii") || has_extension(source.path, ".nii.gz")) {
-        for (const NamedLabel& label : read_nifti_labels(source.path)) names.push_back({label.label, label.name, label.color});
+        for (const NamedLabel& label : read_nifti_labels(source.path))
+            names.push_back({label.label, label.name, label.color});
         return names;
     }
     const std::vector<NrrdSegment> segments = nrrd_segments(source.path);
@@ -154,7 +167,9 @@ std::vector<DicomSegment> segments_of(const Image& image, const ImageInput& sour
     for (const auto& [label, voxels] : count_labels(image)) {
         const auto known = std::find_if(named.begin(), named.end(), [&, l = label](const auto& s) { return s.number == l; });
         if (known != named.end()) segments.push_back(*known);
-        else segments.push_back({.number = label, .label = fmt::format("label {}", label), .color = kStructureColor});
+        else
+            segments.push_back(
+                {.number = label, .label = fmt::format("label {}", label), .color = structure_color(segments.size())});
     }
     return segments;
 }

@@ -18,6 +18,9 @@ namespace kontur::app {
 
 constexpr std::array<std::uint8_t, 3> kStructureColor{230, 179, 77};  ///< that of masks in .seg.nrrd
 
+/// Of the structures of one file that say none, by which neighbours are told apart: of the n-th, from 0.
+std::array<std::uint8_t, 3> structure_color(std::size_t n);
+
 /// The image; with `label` its voxels of that value alone, the others 0. Throws Error(invalid_input) when it has none.
 Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work);
 

@@ -12,6 +12,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/contours/contour_json.h"
+#include "kontur/shape/label_needed.h"
 #include "outputs.h"
 #include "structures.h"
 
@@ -67,6 +68,16 @@ void check(const TraceCommand& command) {
             fmt::format("{} has room for one structure; --all-labels is for an RTSTRUCT (.dcm)", command.output.string()));
 }
 
+/// Of several labels one has to be chosen, where the output has no room for all.
+Mask one_mask(const TraceCommand& command, Console& console, const Work& work) {
+    try {
+        return read_mask(command.mask, command.label, console.noting(command.read), work);
+    } catch (const LabelNeeded& error) {
+        if (!is_dicom_name(command.output)) throw;
+        throw Error(error.kind(), std::string(error.what()) + ", or take them all with --all-labels");
+    }
+}
+
 void trace_all(const TraceCommand& command, const ImageInput& images, Console& console, const Work& work) {
     const Structures found = read_structures({command.mask, console.noting(command.read)}, work);
     if (found.masks.empty())
@@ -99,7 +110,7 @@ void run(const TraceCommand& command, Console& console) {
     const ImageInput images{command.image.path, console.noting(command.image.options)};
     for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), images)) console.warn(note);
     if (command.all_labels) return trace_all(command, images, console, work);
-    const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), work);
+    const Mask mask = one_mask(command, console, work);
     const std::vector<Plane> planes = planes_to_cut(command, mask, console, work);
     ContourSet set = trace(mask, planes, command.options, work);
     if (set.contours.empty())

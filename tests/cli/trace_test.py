@@ -54,6 +54,10 @@ def test_all_labels_become_the_rois_of_one_structure_set(tmp_path):
     made = pydicom.dcmread(tmp_path / "rs.dcm")
     assert [roi.ROIName for roi in made.StructureSetROISequence] == ["organs label 7", "organs label 9"]
     assert [len(roi.ContourSequence) for roi in made.ROIContourSequence] == [4, 4]
+    colors = [tuple(roi.ROIDisplayColor) for roi in made.ROIContourSequence]
+    assert len(set(colors)) == 2, colors
+    one = kontur("trace", tmp_path / "organs.nii.gz", "--image", images, "-o", tmp_path / "one.dcm")
+    assert one.returncode == 65 and one.stderr.endswith("with --label, or take them all with --all-labels\n"), one
     refused = kontur("trace", tmp_path / "organs.nii.gz", "--all-labels", "-o", tmp_path / "rs.json")
     assert refused.returncode == 65 and "--all-labels is for an RTSTRUCT (.dcm)" in refused.stderr, refused
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "kontur/base/error.h"
+
+namespace kontur {
+
+/// A label map has several labels, and none was chosen: Error(invalid_input) that lists them.
+class LabelNeeded : public Error {
+public:
+    explicit LabelNeeded(std::string_view message) : Error(ErrorKind::invalid_input, message) {}
+};
+
+}  // namespace kontur

@@ -117,17 +117,18 @@ CLI::Option* add_choice(CLI::App& sub, const std::string& flag, Value& value, co
     std::string names;
     for (const auto& [name, choice] : choices) names += (names.empty() ? "" : "|") + name;
     const std::string default_name = name_of(value, choices);
-    return sub.add_option_function<std::string>(
-           flag,
-           [&value, choices, flag, names](const std::string& word) {
-               for (const auto& [name, choice] : choices)
-                   if (name == word) {
-                       value = choice;
-                       return;
-                   }
-               throw CLI::ValidationError(flag, fmt::format("is {}, not {}", names, word));
-           },
-           help)
+    return sub
+        .add_option_function<std::string>(
+            flag,
+            [&value, choices, flag, names](const std::string& word) {
+                for (const auto& [name, choice] : choices)
+                    if (name == word) {
+                        value = choice;
+                        return;
+                    }
+                throw CLI::ValidationError(flag, fmt::format("is {}, not {}", names, word));
+            },
+            help)
         ->type_name(names)
         ->default_str(default_name);
 }
@@ -144,6 +145,7 @@ void add_read_options(CLI::App& sub, ReadImageOptions& read) {
 void add_series_options(CLI::App& sub, DicomSeriesOptions& series) {
     sub.add_option("--series", series.series_uid, "Which series of a DICOM folder")->type_name("UID");
     sub.add_option("--volume", series.volume, "Which volume of the series (time, echo), from 1")->type_name("N");
+    sub.add_flag("--resample-slices", series.resample_slices, "Interpolate slices where they lie unevenly or are missing");
 }
 
 void add_curves(CLI::App& sub, std::optional<Curves>& curves) {
@@ -229,7 +231,8 @@ void add_fitting(CLI::App& sub, Command& command, CLI::Option* image) {
     add_use_image(sub, command.options.use_image);
     add_read_options(sub, command.image.options);
     add_series_options(sub, command.image.options.dicom);
-    for (const char* name : {"--use-image", "--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
+    for (const char* name :
+         {"--use-image", "--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume", "--resample-slices"})
         sub.get_option(name)->needs(image);
 }
 
@@ -328,7 +331,8 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     bind.word("MASK", c.mask, "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG)");
     CLI::App* where = bind.sub->add_option_group("Where to cut (one of these; without: the mask's own slices)");
     where->add_option("--planes", c.planes, "Contour file whose planes cut, whatever contours it holds")->type_name("FILE");
-    where->add_option("--image", c.image.path, "Image or DICOM folder whose slices cut")->type_name("FILE");
+    CLI::Option* image =
+        where->add_option("--image", c.image.path, "Image or DICOM folder whose slices cut")->type_name("FILE");
     where->require_option(0, 1);
     bind.option("-o,--output", c.output, "FILE",
                 "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
@@ -343,6 +347,8 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     bind.defaulted("--min-area-mm2", c.options.min_area_mm2, "MM2", "Smaller contours are dropped");
     add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.read);
+    add_series_options(*bind.sub, c.image.options.dicom);
+    for (const char* option : {"--series", "--volume", "--resample-slices"}) bind.sub->get_option(option)->needs(image);
     bind.quiet();
 }
 
@@ -350,9 +356,10 @@ void add_correct(CLI::App& app, Invocation& invocation) {
     Binder<CorrectCommand> bind(app, invocation, "correct", "Correct a mask by what is drawn in some of its planes",
                                 "kontur correct liver.nii.gz corrections.json --output corrected.nii.gz");
     CorrectCommand& c = *bind.command;
-    bind.word("MASK", c.mask.path,
-              "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG); with --image also a closed surface (STL, PLY, OBJ) or an "
-              "RTSTRUCT");
+    bind.word(
+        "MASK", c.mask.path,
+        "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG); with --image also a closed surface (STL, PLY, OBJ) or an "
+        "RTSTRUCT");
     bind.word("CORRECTIONS", c.corrections,
               "Closed contours replace the outline in their plane, open ones a piece of it: .json, .mrk.json or RTSTRUCT");
     bind.option("-o,--output", c.output, "FILE",
@@ -382,8 +389,9 @@ void add_correct(CLI::App& app, Invocation& invocation) {
 }
 
 void add_derive(CLI::App& app, Invocation& invocation) {
-    Binder<DeriveCommand> bind(app, invocation, "derive", "Make structures of structures by rules (docs/derive.md)",
-                               "kontur derive 'PTV = CTV + 5 mm - (Cord + 3 mm)' -i plan.dcm --image ct/ --rtstruct ptv.dcm");
+    Binder<DeriveCommand> bind(
+        app, invocation, "derive", "Make structures of structures by rules (docs/derive.md)",
+        "kontur derive 'PTV = CTV + 5 mm - (Cord + 3 mm)' -i plan.dcm --image ct/ --rtstruct ptv.dcm");
     DeriveCommand& c = *bind.command;
     bind.sub->add_option("RULE", c.rules, "NAME = EXPRESSION; again for more")->type_name("");
     bind.option("--rules", c.rules_file, "FILE", "More rules, one a line; # begins a comment");
@@ -531,8 +539,9 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     ConvertCommand& c = *bind.command;
     bind.word("IN", c.input.path, "Image, DICOM folder, contours, structure set or mesh");
     bind.word("OUT", c.output, "File to write; its name decides the format");
-    bind.option("--image", c.image, "FILE",
-                "DICOM folder that an RTSTRUCT or SEG (.dcm) refers to; or image whose grid a label map or a mesh's mask gets");
+    bind.option(
+        "--image", c.image, "FILE",
+        "DICOM folder that an RTSTRUCT or SEG (.dcm) refers to; or image whose grid a label map or a mesh's mask gets");
     bind.option("--roi", c.contours.roi, "NAME", "Which structure of a structure set, by name or number");
     add_curves(*bind.sub, c.contours.curves);
     bind.option("--label", c.label, "N", "Of a label map or segmentation only this label");
@@ -620,9 +629,8 @@ std::vector<std::string> long_options_of(const CLI::App& sub) {
 
 /// Of the first long option that the command does not have; "" without one. The parser by itself would first miss what is
 /// required, such as --output where it reads --ouput.
-std::string unknown_option(const CLI::App& app, const std::vector<std::string>& words) {
-    if (words.empty() || words[0].starts_with('-')) return "";
-    const std::vector<std::string> names = long_options_of(*app.get_subcommand(words[0]));
+std::string unknown_option(const std::vector<std::string>& names, const std::vector<std::string>& words) {
+    if (names.empty()) return "";
     for (std::size_t n = 1; n < words.size() && words[n] != "--"; ++n) {
         const std::string name = words[n].substr(0, words[n].find('='));
         if (name.starts_with("--") && std::ranges::find(names, name) == names.end())
@@ -679,7 +687,8 @@ Invocation parse_command_line(int argc, const char* const* argv) {
         invocation.exit_code = kUsageExitCode;
         return invocation;
     }
-    if (invocation.text = unknown_option(app, words); !invocation.text.empty()) {
+    if (!words.empty() && !words[0].starts_with('-')) invocation.options = long_options_of(*app.get_subcommand(words[0]));
+    if (invocation.text = unknown_option(invocation.options, words); !invocation.text.empty()) {
         invocation.exit_code = kUsageExitCode;
         return invocation;
     }

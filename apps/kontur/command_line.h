@@ -21,6 +21,7 @@ struct Invocation {
     std::string text;                       ///< shown on stdout when exit_code is 0, else the sentence of a usage error
     int exit_code = 0;                      ///< of `text`
     bool quiet = false;                     ///< for the Console
+    std::vector<std::string> options;       ///< the long ones of the command
     std::function<void(Console&)> command;  ///< empty: show `text` instead
     std::function<void()> check;            ///< of segment: check_words(); else empty
 };

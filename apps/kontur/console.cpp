@@ -20,8 +20,8 @@ void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw Error(ErrorKind::io, "standard output cannot be written");
 }
 
-Console::Console(bool quiet, std::stop_token stop)
-    : quiet_(quiet), has_bar_(!quiet && isatty(STDERR_FILENO)), stop_(std::move(stop)) {}
+Console::Console(bool quiet, std::stop_token stop, std::vector<std::string> options)
+    : quiet_(quiet), options_(std::move(options)), has_bar_(!quiet && isatty(STDERR_FILENO)), stop_(std::move(stop)) {}
 
 Console::~Console() { clear_bar(); }
 
@@ -41,7 +41,7 @@ void Console::print(std::string_view text) {
 void Console::warn(std::string_view sentence) {
     const std::scoped_lock lock(mutex_);
     clear_bar();
-    print_stderr(fmt::format("kontur: warning: {}\n", with_typed_options(std::string(sentence))));
+    print_stderr(fmt::format("kontur: warning: {}\n", with_typed_options(std::string(sentence), options_)));
 }
 
 void Console::warn_once(std::string_view sentence) {
@@ -53,7 +53,7 @@ void Console::note(std::span<const std::string> sentences) {
     const std::scoped_lock lock(mutex_);
     clear_bar();
     for (const std::string& sentence : sentences)
-        print_stderr(fmt::format("kontur: note: {}\n", with_typed_options(sentence)));
+        print_stderr(fmt::format("kontur: note: {}\n", with_typed_options(sentence, options_)));
 }
 
 ReadImageOptions Console::noting(ReadImageOptions options) {

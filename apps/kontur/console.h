@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kontur/base/work.h"
 #include "kontur/io/images/read_image_options.h"
@@ -25,8 +26,8 @@ void flush_stdout();
 /// concurrent use.
 class Console {
 public:
-    /// `quiet`: no progress and no results, warnings only.
-    Console(bool quiet, std::stop_token stop);
+    /// `quiet`: no progress and no results, warnings only. `options`: the long ones of the command, which sentences name.
+    Console(bool quiet, std::stop_token stop, std::vector<std::string> options);
     ~Console();
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
@@ -54,6 +55,7 @@ private:
     void clear_bar();
 
     bool quiet_;
+    std::vector<std::string> options_;
     bool has_bar_;
     std::stop_token stop_;
     std::set<std::string, std::less<>> warned_;

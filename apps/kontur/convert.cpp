@@ -10,11 +10,14 @@
 #include <vector>
 
 #include "commands.h"
+#include "contour_files.h"
 #include "dicom_output.h"
+#include "in_faults_of.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/extract/mesh_mask.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
 #include "kontur/io/meshes/mesh.h"
 #include "labels_on_grid.h"
@@ -117,9 +120,11 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
                     fmt::format("segments of {} overlap, and --image moves one label map at a time to its grid; choose one "
                                 "with --label",
                                 command.input.path.string()));
-    if (by_itself && has_room_for_overlap(output))
-        return console.note(
-            write_structures({output, images, command.series, made}, structures_of(command, console), console.work()));
+    if (by_itself && has_room_for_overlap(output)) {
+        const Structures all = structures_of(command, console);
+        const auto write = [&] { return write_structures({output, images, command.series, made}, all, console.work()); };
+        return console.note(command.more.empty() ? in_faults_of(input.path, write) : write());
+    }
     if (by_itself && !is_dicom_seg(input.path))  // of which the reader says which
         throw Error(ErrorKind::invalid_input,
                     fmt::format("segments of {} overlap, and {} has room for one in a voxel; write a SEG (.dcm) or "
@@ -136,13 +141,9 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
 void convert_to_mask(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
     const ImageInput images{command.image, console.noting(command.input.options)};
     const fs::path& path = command.input.path;
-    MeshMask inside = [&] {
-        try {
-            return voxelize_mesh(read_mesh(path), read_grid(images.path, images.options, console.work()), console.work());
-        } catch (const Error& error) {
-            throw error.kind() == ErrorKind::invalid_input ? error.with_context(path.string()) : error;
-        }
-    }();
+    MeshMask inside = in_faults_of(path, [&] {
+        return voxelize_mesh(read_mesh(path), read_grid(images.path, images.options, console.work()), console.work());
+    });
     if (std::ranges::count(inside.mask.values, 1) == 0)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("no voxel of {} lies within {}", command.image.string(), path.string()));
@@ -155,6 +156,17 @@ void convert_to_mask(const ConvertCommand& command, const fs::path& output, cons
     console.note(write_structures({output, images, command.series, made}, one, console.work()));
 }
 
+/// Throws Error(invalid_input) for an empty structure set, and for contours that formats without planes would bend: of an
+/// RTSTRUCT, which is one, the reader says it.
+void check_drawn(const ConvertCommand& command, const ContourSet& set) {
+    const fs::path& input = command.input.path;
+    if (is_dicom_name(command.output) && set.contours.empty())
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{}: there is no contour; a structure set needs at least 1", input.string()));
+    const bool has_planes = has_extension(command.output, ".json") && !has_extension(command.output, ".mrk.json");
+    if (!has_planes && !is_rtstruct(input)) check_each_contour(input, set);
+}
+
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
     const Provenance made = provenance_of(command, console.work());
     switch (kind) {
@@ -163,11 +175,12 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
         case FileKind::contours: {
             const ReadContours loaded = read_contours(command.input.path, command.contours);
             console.note(loaded.notes);
+            check_drawn(command, loaded.contours);
             const ImageInput images{command.image, console.noting(command.input.options)};
             for (const std::string& note : frame_of_reference_notes(loaded.frame_of_reference_uid, images))
                 console.warn(note);
-            return console.note(write_contours(output, loaded.contours, images,
-                                               rtstruct_options(command.holes, command.series, made)));
+            return console.note(
+                write_contours(output, loaded.contours, images, rtstruct_options(command.holes, command.series, made)));
         }
         case FileKind::mesh:
             if (makes_mask(kind, command.output)) return convert_to_mask(command, output, made, console);
@@ -190,8 +203,8 @@ void check_options(const ConvertCommand& command, FileKind kind) {
     if (command.contours.curves && kind != FileKind::contours) refuse("--curves is for 3D Slicer's markups (.mrk.json)");
     if ((read.frame || read.prefer || read.allow_missing_geometry) && kind != FileKind::image)
         refuse("--frame, --prefer and --allow-missing-geometry are for images");
-    if ((read.dicom.series_uid || read.dicom.volume) && kind != FileKind::image && !is_dicom)
-        refuse("--series and --volume choose from DICOM images");
+    if ((read.dicom.series_uid || read.dicom.volume || read.dicom.resample_slices) && kind != FileKind::image && !is_dicom)
+        refuse("--series, --volume and --resample-slices are for DICOM images");
     if (command.label && kind != FileKind::image) refuse("--label chooses from a label map or a segmentation");
     if (command.more.empty()) return;
     if (kind != FileKind::image || !has_room_for_overlap(command.output))

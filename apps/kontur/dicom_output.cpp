@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "in_faults_of.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/contours.h"
@@ -146,16 +147,17 @@ std::vector<std::string> write_image(const OutputFile& file, const Image& image,
     const auto& [path, images, series, provenance] = file;
     if (!is_dicom_name(path)) {
         if (has_extension(path, ".seg.nrrd")) check_labels(image, source);
-        kontur::write_image(path, image, {has_label_names(path) ? label_names(source) : std::vector<LabelName>{}, provenance});
+        kontur::write_image(path, image,
+                            {has_label_names(path) ? label_names(source) : std::vector<LabelName>{}, provenance});
         return {};
     }
     const std::vector<DicomSegment> segments = segments_of(image, source);
     check_no_image(image, segments.size());
-    return write_labels(file, image, segments, work);
+    return in_faults_of(source.path, [&] { return write_labels(file, image, segments, work); });
 }
 
-std::vector<std::string> write_labels(const OutputFile& file, const Image& labels,
-                                      const std::vector<DicomSegment>& segments, const Work& work) {
+std::vector<std::string> write_labels(const OutputFile& file, const Image& labels, const std::vector<DicomSegment>& segments,
+                                      const Work& work) {
     return write_dicom_seg(file.path, {labels, segments}, series_of(file.images), seg_options(file.series, file.provenance),
                            work);
 }
@@ -166,7 +168,7 @@ std::vector<std::string> write_structures(const OutputFile& file, const Structur
         std::vector<NrrdSegment> segments;
         for (std::size_t n = 0; n < structures.segments.size(); ++n) {
             const DicomSegment& one = structures.segments[n];
-            segments.push_back({.name = one.label, .color = to_levels(one.color.value_or(kStructureColor))});
+            segments.push_back({.name = one.label, .color = to_levels(one.color.value_or(structure_color(n)))});
             segments.back().tags = tags_of(structures, n);
         }
         write_seg_nrrd_masks(path, structures.masks, segments, provenance);

@@ -59,7 +59,7 @@ void check_room_for_overlap(const FillCommand& command) {
     if (has_room_for_overlap(command.output) || command.options.labels.size() == 1) return;
     throw Error(ErrorKind::invalid_input,
                 fmt::format("segments of {} overlap, and {} has room for one in a voxel; write a SEG (.dcm) or "
-                            ".seg.nrrd, or choose one with --label",
+                            ".seg.nrrd, or choose one with the option label",
                             command.labels.path.string(), command.output.string()));
 }
 

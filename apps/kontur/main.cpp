@@ -32,7 +32,7 @@ void fill_closed_streams() {
 
 void run_command(const Invocation& invocation) {
     const Interrupt interrupt;
-    Console console(invocation.quiet, interrupt.token());
+    Console console(invocation.quiet, interrupt.token(), invocation.options);
     invocation.command(console);
 }
 
@@ -44,7 +44,7 @@ int run(const Invocation& invocation) {
         return 0;
     } catch (const Error& error) {
         const bool cancelled = error.kind() == ErrorKind::cancelled;
-        return fail(cancelled ? "interrupted; nothing was written" : with_typed_options(error.what()),
+        return fail(cancelled ? "interrupted; nothing was written" : with_typed_options(error.what(), invocation.options),
                     exit_code(error.kind()));
     } catch (const EndedEarly& ended) {
         return fail(ended.what(), ended.exit_code);

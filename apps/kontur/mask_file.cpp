@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "dicom_output.h"
+#include "in_faults_of.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/mesh_mask.h"
@@ -60,25 +61,17 @@ MaskFile of_contours(const CorrectCommand& command, const Grid& grid, Console& c
     const fs::path& path = command.mask.path;
     ReadContours read = read_contours(path, {.roi = command.mask_roi});
     console.note(read.notes);
-    try {
+    return in_faults_of(path, [&] {
         Mask mask = rasterize(read.contours, grid);
         check_filled_slices(mask);
         check_not_empty(mask, path, command.image);
         return one_structure(std::move(mask), read.contours.name, read.contours.attributes);
-    } catch (const Error& error) {
-        throw error.kind() == ErrorKind::invalid_input ? error.with_context(path.string()) : error;
-    }
+    });
 }
 
 MaskFile of_mesh(const CorrectCommand& command, const Grid& grid, Console& console, const Work& work) {
     const fs::path& path = command.mask.path;
-    MeshMask inside = [&] {
-        try {
-            return voxelize_mesh(read_mesh(path), grid, work);
-        } catch (const Error& error) {
-            throw error.kind() == ErrorKind::invalid_input ? error.with_context(path.string()) : error;
-        }
-    }();
+    MeshMask inside = in_faults_of(path, [&] { return voxelize_mesh(read_mesh(path), grid, work); });
     check_not_empty(inside.mask, path, command.image);
     if (inside.is_cut)
         console.warn(fmt::format("{} reaches beyond {} and is cut off there", path.string(), command.image.string()));
@@ -93,7 +86,8 @@ MaskFile of_segment(const CorrectCommand& command, const ImageInput& input, cons
     MaskFile file;
     file.structures = read_structures(input, work);
     const auto& segments = file.structures.segments;
-    const auto at = std::find_if(segments.begin(), segments.end(), [&](const auto& s) { return s.number == *command.label; });
+    const auto at =
+        std::find_if(segments.begin(), segments.end(), [&](const auto& s) { return s.number == *command.label; });
     if (at == segments.end())
         throw Error(ErrorKind::invalid_input, fmt::format("{} has no label {}", input.path.string(), *command.label));
     file.label = *command.label;
@@ -109,8 +103,8 @@ MaskFile of_labels(const CorrectCommand& command, const ImageInput& input, const
     file.mask = select_mask(file.labels, command.label, input.path.string());
     const auto inside = std::find_if(file.mask.values.begin(), file.mask.values.end(), [](auto v) { return v != 0; });
     if (inside != file.mask.values.end())
-        file.label = static_cast<std::int64_t>(
-            sample(file.labels, static_cast<std::size_t>(inside - file.mask.values.begin())));
+        file.label =
+            static_cast<std::int64_t>(sample(file.labels, static_cast<std::size_t>(inside - file.mask.values.begin())));
     return file;
 }
 
@@ -184,12 +178,13 @@ std::vector<std::string> write_mask_file(const fs::path& path, const MaskFile& f
         std::vector<DicomSegment> segments = segments_of(file.labels, source);
         for (DicomSegment& segment : segments)
             if (segment.number == file.label) name_algorithm(segment);
-        return write_labels(output, file.labels, segments, work);
+        return in_faults_of(source.path, [&] { return write_labels(output, file.labels, segments, work); });
     }
     Structures structures = file.structures;
     DicomSegment& segment = structures.segments[file.chosen];
     name_algorithm(segment);
-    if (has_room_for_overlap(path)) return write_structures(output, structures, work);
+    if (has_room_for_overlap(path))
+        return in_faults_of(source.path, [&] { return write_structures(output, structures, work); });
     const LabelName name{file.label, segment.label, to_levels(segment.color.value_or(kStructureColor)),
                          tags_of(structures, file.chosen)};
     kontur::write_image(path, label_map(structures.masks[file.chosen], file.label), {{name}, made});

@@ -72,7 +72,7 @@ Words with_images_found(Words words, const DicomDrawing& drawing, const Work& wo
 }  // namespace
 
 viewer::ImageChoice choice_of(const ReadImageOptions& options) {
-    return {options.dicom.series_uid, options.dicom.volume, options.frame, options.prefer};
+    return {options.dicom.series_uid, options.dicom.volume, options.frame, options.prefer, options.dicom.resample_slices};
 }
 
 void choose(ReadImageOptions& options, const viewer::ImageChoice& choice) {
@@ -80,6 +80,7 @@ void choose(ReadImageOptions& options, const viewer::ImageChoice& choice) {
     options.dicom.volume = choice.volume;
     options.frame = choice.frame;
     options.prefer = choice.prefer;
+    options.dicom.resample_slices = choice.resample_slices;
 }
 
 std::string Words::title() const {

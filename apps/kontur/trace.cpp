@@ -12,7 +12,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/contours/contour_json.h"
-#include "kontur/shape/label_needed.h"
+#include "kontur/shape/label_choice_error.h"
 #include "outputs.h"
 #include "structures.h"
 
@@ -72,7 +72,7 @@ void check(const TraceCommand& command) {
 Mask one_mask(const TraceCommand& command, Console& console, const Work& work) {
     try {
         return read_mask(command.mask, command.label, console.noting(command.read), work);
-    } catch (const LabelNeeded& error) {
+    } catch (const LabelChoiceError& error) {
         if (!is_dicom_name(command.output)) throw;
         throw Error(error.kind(), std::string(error.what()) + ", or take them all with --all-labels");
     }

@@ -34,14 +34,17 @@ std::string usage_sentence(const std::string& of_parser) {
     return of_parser;
 }
 
-std::string with_typed_options(const std::string& of_library) {
-    static const std::regex kOption("the option (label|roi|frame|prefer|allow_missing_geometry|series_uid|volume)\\b");
+std::string with_typed_options(const std::string& of_library, std::span<const std::string> available) {
+    static const std::regex kOption(
+        "the option (label|roi|frame|prefer|allow_missing_geometry|series_uid|volume|resample_slices)\\b");
     std::string sentence;
     auto rest = of_library.cbegin();
     for (std::smatch part; std::regex_search(rest, of_library.cend(), part, kOption); rest = part.suffix().first) {
         std::string name = part.str(1) == "series_uid" ? "series" : part.str(1);
         std::replace(name.begin(), name.end(), '_', '-');
-        sentence += part.prefix().str() + "--" + name;
+        name.insert(0, "--");
+        const bool is_available = std::ranges::find(available, name) != available.end();
+        sentence += part.prefix().str() + (is_available ? "" : "kontur convert ") + name;
     }
     return sentence + std::string(rest, of_library.cend());
 }

@@ -20,7 +20,10 @@ Keywords<ReadImageOptions> read_keywords() {
             "series_uid", [](ReadImageOptions & o) -> auto& { return o.dicom.series_uid; },
             "Which series of a DICOM folder.")
         .field(
-            "volume", [](ReadImageOptions & o) -> auto& { return o.dicom.volume; }, "Which volume of the series, from 1.");
+            "volume", [](ReadImageOptions & o) -> auto& { return o.dicom.volume; }, "Which volume of the series, from 1.")
+        .field(
+            "resample_slices", [](ReadImageOptions & o) -> auto& { return o.dicom.resample_slices; },
+            "Interpolate slices where they lie unevenly or are missing; else such series are refused.");
 }
 
 /// Calls `read` with the options without the interpreter's lock, then gives its notes.

@@ -159,6 +159,21 @@ def test_a_dicom_series_keeps_values_and_place(tmp_path):
     assert numpy.allclose(image.affine[:3, 3], [-x, -y, z], atol=1e-3)
 
 
+def test_slices_that_lie_unevenly_are_resampled_where_that_is_asked_for(tmp_path):
+    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "missing", tmp_path], check=True)
+    gaps, even = tmp_path / "dicom", tmp_path / "even.nii.gz"
+    refused = kontur("convert", gaps, even)
+    assert refused.returncode == 69 and "--resample-slices interpolates slices" in refused.stderr, refused
+    made = kontur("convert", gaps, even, "--resample-slices")
+    assert made.returncode == 0 and "3 of 9 slices are interpolated" in made.stderr, made
+    labels = nibabel.load(even)
+    nibabel.save(nibabel.Nifti1Image((numpy.asarray(labels.dataobj) > 100).astype(numpy.uint8), labels.affine), tmp_path / "mask.nii.gz")
+    segmentation = kontur("convert", tmp_path / "mask.nii.gz", tmp_path / "mask.dcm", "--image", gaps, "--resample-slices")
+    assert segmentation.returncode == 69 and "do not lie evenly" in segmentation.stderr, segmentation
+    traced = kontur("trace", tmp_path / "mask.nii.gz", "--image", gaps, "--resample-slices", "-o", tmp_path / "rs.dcm")
+    assert traced.returncode == 0 and "on no slice of the images" in traced.stderr, traced
+
+
 def test_a_structure_set_becomes_contours(tmp_path):
     path = real_data("03_sarcoma_STS_002/CT/RTSTRUCT_RS.dcm")
     assert kontur("convert", path, tmp_path / "out.json").returncode == 0

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import pathlib
 
+import nibabel
 import numpy
 import pytest
 from support import ball_array, ball_planes, kontur, succeed, write_nifti, write_planes
@@ -74,12 +75,16 @@ def folder(tmp_path_factory):
         source = next(tmp_path.glob(name + ".*"))
         (tmp_path / ("cut_" + source.name)).write_bytes(source.read_bytes())
         cut(tmp_path / ("cut_" + source.name))
+    torn = nibabel.load(tmp_path / "mask.nii.gz")
+    torn.set_qform(torn.affine + numpy.pad([[7.0]], ((0, 3), (3, 0))), code=1)
+    nibabel.save(torn, tmp_path / "torn.nii.gz")
     planes = ball_planes()
     planes[8]["contours"][0]["points"][3][2] += 2.5
     write_planes(tmp_path / "bent.json", planes)
     write_planes(tmp_path / "nothing.json", [plane | {"contours": []} for plane in ball_planes()])
-    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "axial", tmp_path / "made"], check=True)
-    (tmp_path / "made" / "dicom").rename(tmp_path / "dicom")
+    for case, name in (("axial", "dicom"), ("missing", "gaps"), ("other_series", "series")):
+        subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", case, tmp_path / case], check=True)
+        (tmp_path / case / "dicom").rename(tmp_path / name)
     for name in ("far.stl", "open.stl"):
         corners = [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9)]
         faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)][: 4 if name == "far.stl" else 3]
@@ -107,9 +112,11 @@ FAULTS = [
     ("suggest cut_ball.json", "cut_ball.json"), ("suggest bent.json", "bent.json"), ("suggest nothing.json", "nothing.json"),
     ("convert float.nii.gz OUT.seg.nrrd", "float.nii.gz"), ("convert cut_mask.nii.gz OUT.nrrd", "cut_mask.nii.gz"),
     ("convert frames.nii.gz OUT.nrrd", "frames.nii.gz"), ("convert float.nii.gz OUT.dcm --image dicom", "float.nii.gz"),
-    ("convert mask.nii.gz OUT.dcm --image dicom", "mask"), ("convert cut_ball.json OUT.mrk.json", "cut_ball.json"),
+    ("convert mask.nii.gz OUT.dcm --image dicom", "mask.nii.gz"), ("convert cut_ball.json OUT.mrk.json", "cut_ball.json"),
     ("convert open.stl OUT.nii.gz --image mask.nii.gz", "open.stl"), ("convert far.stl OUT.nii.gz --image mask.nii.gz", "far.stl"),
     ("convert none.stl OUT.ply", "none.stl"),
+    ("convert bent.json OUT.dcm --image dicom", "bent.json"), ("convert bent.json OUT.mrk.json", "bent.json"),
+    ("convert nothing.json OUT.dcm --image dicom", "nothing.json"),
     ("compare cut_mask.nii.gz mask.nii.gz", "cut_mask.nii.gz"), ("compare mask.nii.gz float.nii.gz", "float.nii.gz"),
     ("inspect cut_mask.nii.gz", "cut_mask.nii.gz"), ("batch none.csv", "none.csv"),
     ("slicer --reference mask.nii.gz --contour bent.json --mask OUT.nrrd", "bent.json"),
@@ -134,15 +141,34 @@ def test_a_fault_of_an_input_names_it_and_not_the_output(folder, words, name):
 
 @pytest.mark.parametrize("words", ["segment ball.json --image frames.nii.gz -o a.nii", "trace two.nii.gz -o a.json", "convert frames.nii.gz a.nrrd",
                                    "compare two.nii.gz mask.nii.gz", "compare frames.nii.gz mask.nii.gz", "fill frames.nii.gz -o a.nii",
-                                   "correct two.nii.gz ball.json -o a.nii", "correct frames.nii.gz ball.json -o a.nii"])
+                                   "correct two.nii.gz ball.json -o a.nii", "correct frames.nii.gz ball.json -o a.nii",
+                                   "convert mask.nii.gz a.dcm --image dicom", "segment ball.json --image gaps -o a.nii",
+                                   "trace mask.nii.gz --image gaps -o a.json", "convert gaps a.nii",
+                                   "trace mask.nii.gz --image series -o a.json", "fill sparse.nii.gz --image series -o a.nii"])
 def test_what_leads_on_is_an_option_that_the_command_has(folder, words):
     words = words.split()
     said = kontur(*words, cwd=folder).stderr
     for path in folder.glob("a.*"):
         path.unlink()
-    named = re.findall(r"--[a-z-]+", said)
+    named = re.findall(r"(?<!kontur segment )--[a-z-]+", said)
     assert named, said
     assert set(named) <= set(options(words[0])), said
+
+
+@pytest.mark.parametrize("words", ["slicer-fill --labels frames.nii.gz --filled a.nrrd",
+                                   "slicer-fill --labels sparse.nii.gz --image frames.nii.gz --filled a.nrrd",
+                                   "slicer --reference torn.nii.gz --contour ball.json --mask a.nrrd"])
+def test_what_a_command_cannot_choose_another_does(folder, words):
+    words = words.split()
+    result = kontur(*words, cwd=folder)
+    [named] = re.findall(r"kontur convert (--[a-z-]+)", result.stdout + result.stderr)
+    assert named not in options(words[0]) and named in options("convert"), result
+    assert set(re.findall(r"--[a-z-]+", result.stderr)) == {named}, result
+
+
+def test_only_a_drawing_that_says_where_its_planes_are_keeps_what_lies_off_them(folder, tmp_path):
+    for name in ("bent.json", "nothing.json"):
+        succeed("convert", folder / name, tmp_path / name)
 
 
 def ring(x, y, z, radius, points=40, start=0.0):

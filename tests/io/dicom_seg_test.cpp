@@ -228,7 +228,7 @@ TEST_F(WriteDicomSeg, RefusesWhatDoesNotFit) {
     labels.grid.index_to_mm.set_column(2, 0.5 * grid_.index_to_mm.column(2));
     EXPECT_KONTUR_ERROR(
         write_dicom_seg(path(), {labels, three_segments()}, series_), ErrorKind::invalid_input,
-        "the mask's voxels of 0.7 x 0.8 x 1.25 mm are not those of the images, which have 0.7 x 0.8 x 2.5 mm");
+        "its voxels of 0.7 x 0.8 x 1.25 mm are not those of the images, which have 0.7 x 0.8 x 2.5 mm");
     EXPECT_FALSE(fs::exists(path()));
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "kontur/base/error.h"
@@ -80,7 +81,51 @@ TEST_F(DicomSeriesTest, ReadsPositionsThatAreRoundedAsTheyAreWrittenWithTheLarge
 }
 
 TEST_F(DicomSeriesTest, NamesTheWayOutOfIrregularSlices) {
-    EXPECT_REFUSED(refusal(make("missing")), unsupported, "where --spacing-mm gives the mask's voxels");
+    EXPECT_REFUSED(refusal(make("missing")), unsupported, "resample_slices interpolates slices, and kontur segment --spacing-mm needs no image");
+}
+
+TEST_F(DicomSeriesTest, ResampledSlicesAreThoseThatAreThereAndLieBetweenThemElsewhere) {
+    const fs::path files = make("missing");  // 3, 4 and 7 of nine
+    const DicomSeriesOptions options{.resample_slices = true};
+    const DicomVolume volume = read_dicom_series(files, options);
+    const Truth truth = read_truth(folder_ / "missing");
+    EXPECT_LT(corner_distance_mm(volume.image.grid, truth.grid), 1e-5);
+    EXPECT_EQ(read_dicom_grid(files, options).grid, volume.image.grid);
+    EXPECT_EQ(volume.series.files.size(), 6u);
+    EXPECT_TRUE(has_samples<std::int16_t>(volume));
+    EXPECT_TRUE(notes_mention(volume.notes, "resampled to steps of 2.5 mm: 3 of 9 slices are interpolated"))
+        << testing::PrintToString(volume.notes);
+    const auto expected = [&](std::size_t k, std::size_t n) {
+        const auto at = [&](std::size_t slice) { return truth.values[slice * 14 * 12 + n]; };
+        if (k == 3) return std::round((2 * at(2) + at(5)) / 3);
+        if (k == 4) return std::round((at(2) + 2 * at(5)) / 3);
+        if (k == 7) return std::round((at(6) + at(8)) / 2);
+        return at(k);
+    };
+    for (std::size_t k = 0; k < 9; ++k)
+        for (std::size_t n = 0; n < 14 * 12; ++n)
+            ASSERT_NEAR(sample(volume.image, k * 14 * 12 + n), expected(k, n), 1e-9) << k << " " << n;
+}
+
+TEST_F(DicomSeriesTest, ASliceOffItsPlaceIsInterpolatedThereAndNoOtherSliceChanges) {
+    const fs::path files = make("jitter");  // slice 4 lies 0.2 mm too high
+    const DicomVolume volume = read_dicom_series(files, {.resample_slices = true});
+    const Truth truth = read_truth(folder_ / "jitter");
+    EXPECT_TRUE(notes_mention(volume.notes, "2.3 to 2.7 mm apart and are resampled to steps of 2.5 mm: 1 of 9 slices"))
+        << testing::PrintToString(volume.notes);
+    for (std::size_t n = 0; n < truth.values.size(); ++n) {
+        const bool is_moved = n / (14 * 12) == 4;
+        const double below = is_moved ? truth.values[n - 14 * 12] : 0;
+        const double expected = is_moved ? std::round(below + (truth.values[n] - below) * 2.5 / 2.7) : truth.values[n];
+        ASSERT_NEAR(sample(volume.image, n), expected, 1e-9) << n;
+    }
+}
+
+TEST_F(DicomSeriesTest, EvenSlicesAreNotResampled) {
+    EXPECT_TRUE(read_and_check("axial", {.resample_slices = true}).notes.empty());
+    read_and_check("tilt", {.resample_slices = true});
+    EXPECT_REFUSED(refusal(make("shifted"), {.resample_slices = true}), unsupported, "is shifted by 0.5 mm");
+    EXPECT_REFUSED(refusal(make("far"), {.resample_slices = true}), unsupported, "slices are missing between");
 }
 
 TEST_F(DicomSeriesTest, RefusesIrregularSpacingAndShift) {

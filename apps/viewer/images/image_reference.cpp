@@ -22,6 +22,7 @@ json to_json(const ImageChoice& choice) {
     if (choice.volume) object["volume"] = *choice.volume;
     if (choice.frame) object["frame"] = *choice.frame - 1;  // projects and requests count from 0
     if (choice.prefer) object["prefer"] = *choice.prefer == NiftiTransform::sform ? "sform" : "qform";
+    if (choice.resample_slices) object["resample_slices"] = true;
     return object;
 }
 
@@ -44,6 +45,7 @@ ImageChoice choice_from_json(const json& object) {
             throw Error(ErrorKind::invalid_input, "'prefer' is neither \"sform\" nor \"qform\"");
         choice.prefer = word == "sform" ? NiftiTransform::sform : NiftiTransform::qform;
     }
+    if (m.has("resample_slices")) choice.resample_slices = m.flag("resample_slices");
     return choice;
 }
 

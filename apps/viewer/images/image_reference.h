@@ -18,6 +18,7 @@ struct ImageChoice {
     std::optional<int> volume{};             ///< of the series, from 1
     std::optional<std::int64_t> frame{};     ///< from 1
     std::optional<NiftiTransform> prefer{};  ///< of two that differ
+    bool resample_slices = false;            ///< of a series, where they lie unevenly
 
     friend bool operator==(const ImageChoice&, const ImageChoice&) = default;
 };
@@ -41,8 +42,8 @@ private:
     std::string image_;
 };
 
-// As requests and project files have them: members `series`, `volume`, `frame`, `prefer`, beside a reference's `path` and
-// `fingerprint`. Reading throws Error(invalid_input) as `Members` does.
+// As requests and project files have them: members `series`, `volume`, `frame`, `prefer`, `resample_slices`, beside a
+// reference's `path` and `fingerprint`. Reading throws Error(invalid_input) as `Members` does.
 
 nlohmann::json to_json(const ImageChoice& choice);
 nlohmann::json to_json(const ImageReference& reference);

@@ -12,6 +12,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
+#include "kontur/io/dicom/uneven_slices_error.h"
 #include "kontur/io/images/frame_choice_error.h"
 #include "kontur/io/images/transform_choice_error.h"
 #include "viewer/model/message_checks.h"
@@ -78,6 +79,8 @@ HttpReply guarded(Make make) {
         return choice_reply(error, {{"frames", error.frames()}});
     } catch (const TransformChoiceError& error) {
         return choice_reply(error, {{"transforms", true}});
+    } catch (const UnevenSlicesError& error) {
+        return choice_reply(error, {{"uneven", true}});
     } catch (const StructureRemoved&) {
         return nothing();
     } catch (const PathMissing& error) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kontur/base/error.h"
+#include "kontur/io/dicom/uneven_slices_error.h"
 #include "kontur/io/images/frame_choice_error.h"
 #include "kontur/io/images/transform_choice_error.h"
 #include "viewer/model/model_json.h"
@@ -190,6 +191,9 @@ void Workspace::read(const Open& open, const std::function<void(std::exception_p
     } catch (const TransformChoiceError& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what(), {{"transforms", true}});
+    } catch (const UnevenSlicesError& error) {
+        failure = std::current_exception();
+        fail(name(error.kind()), error.what(), {{"uneven", true}});
     } catch (const ImageMoved& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what(), {{"moved", error.image()}});

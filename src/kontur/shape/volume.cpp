@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "kontur/base/error.h"
-#include "kontur/shape/label_needed.h"
+#include "kontur/shape/label_choice_error.h"
 
 namespace kontur {
 namespace {
@@ -158,8 +158,8 @@ Mask select_mask(const Image& image, std::optional<std::int64_t> label, const st
         throw error.with_context(name);
     }
     if (!label && labels.size() > 1)
-        throw LabelNeeded(name + " has " + std::to_string(labels.size()) + " labels; choose one of " + list_of(labels) +
-                          " with the option label");
+        throw LabelChoiceError(name + " has " + std::to_string(labels.size()) + " labels; choose one of " + list_of(labels) +
+                               " with the option label");
     if (label && !labels.contains(*label))
         throw Error(ErrorKind::invalid_input,
                     name + " has no label " + std::to_string(*label) + "; its labels are " + list_of(labels));

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "kontur/base/error.h"
+#include "kontur/io/dicom/uneven_slices_error.h"
 
 namespace kontur {
 namespace {
@@ -17,7 +18,10 @@ constexpr double kRelativeTolerance = 0.01;
 constexpr double kAlongToleranceMm = 0.01;
 constexpr double kAcrossToleranceMm = 0.1;
 constexpr std::size_t kGapsNamed = 10;
-constexpr const char* kWayOut = "; contours need no image where --spacing-mm gives the mask's voxels";
+constexpr const char* kWayOut = "; kontur segment --spacing-mm needs no image";
+constexpr const char* kWaysOut =
+    "; the option resample_slices interpolates slices, and kontur segment --spacing-mm needs no image";
+constexpr double kMostResampled = 1e5;  // slices
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::unsupported, message); }
 
@@ -76,10 +80,11 @@ void refuse_duplicates(const DicomStack& stack, const std::vector<double>& posit
     }
     const std::size_t count = gaps.size();
     if (count > kGapsNamed) gaps.resize(kGapsNamed);
-    refuse(fmt::format("slices are missing between {}{}: {:.6g} of them at the usual spacing of {:.6g} mm{}",
-                       names.unit_text(fmt::format("{}", fmt::join(gaps, ", "))),
-                       count > kGapsNamed ? fmt::format(" and in {} more places", count - kGapsNamed) : "", missing, usual,
-                       kWayOut));
+    throw UnevenSlicesError(
+        fmt::format("slices are missing between {}{}: {:.6g} of them at the usual spacing of {:.6g} mm{}",
+                    names.unit_text(fmt::format("{}", fmt::join(gaps, ", "))),
+                    count > kGapsNamed ? fmt::format(" and in {} more places", count - kGapsNamed) : "", missing, usual,
+                    missing < kMostResampled ? kWaysOut : kWayOut));
 }
 
 /// The unit in the last place to which a coordinate was written, such as 0.1 of 12.3; 0: none that rounds visibly.
@@ -117,37 +122,76 @@ Vec3 shares_across(const Vec3& normal) {
     return {share(normal.x), share(normal.y), share(normal.z)};
 }
 
-/// Every slice must lie where a regular grid from the first to the last slice puts it, measured along the normal.
-void check_spacing(const DicomStack& stack, const std::vector<double>& positions, std::vector<std::string>& notes) {
+/// How far the slices lie off a regular grid from the first to the last one, along the normal.
+double off_even_mm(const std::vector<double>& positions) {
     const double mean = positions.back() / static_cast<double>(positions.size() - 1);
-    const double exact = std::max(kRelativeTolerance * mean, kAlongToleranceMm);
-    const double tolerance = std::max(exact, rounding_mm(stack, stack.slices.front().placement.normal(), mean));
     double worst = 0;
     for (std::size_t k = 0; k < positions.size(); ++k)
         worst = std::max(worst, std::abs(positions[k] - static_cast<double>(k) * mean));
-    if (worst > exact && worst <= tolerance)
-        notes.push_back(
-            fmt::format("the slices' positions are rounded: they lie up to {:.3g} mm off a regular grid with "
-                        "steps of {:.6g} mm, on which they are taken to lie",
-                        worst, mean));
-    if (worst <= tolerance) return;
+    return worst;
+}
+
+/// Whether the slices count as even; a note where their positions are rounded.
+bool is_even(const DicomStack& stack, const std::vector<double>& positions, std::vector<std::string>& notes) {
+    const double mean = positions.back() / static_cast<double>(positions.size() - 1), worst = off_even_mm(positions);
+    const double exact = std::max(kRelativeTolerance * mean, kAlongToleranceMm);
+    if (worst <= exact) return true;
+    if (worst > rounding_mm(stack, stack.slices.front().placement.normal(), mean)) return false;
+    notes.push_back(
+        fmt::format("the slices' positions are rounded: they lie up to {:.3g} mm off a regular grid with "
+                    "steps of {:.6g} mm, on which they are taken to lie",
+                    worst, mean));
+    return true;
+}
+
+[[noreturn]] void refuse_uneven(const DicomStack& stack, const std::vector<double>& positions) {
     const std::vector<double> steps = steps_between(positions);
-    const double usual = lower_median(steps);
+    const double usual = lower_median(steps), mean = positions.back() / static_cast<double>(positions.size() - 1);
     const auto [shortest, longest] = std::minmax_element(steps.begin(), steps.end());
     if (*longest >= 1.5 * usual) refuse_gaps(stack, steps, usual);
-    refuse(fmt::format(
-        "the slice spacing is irregular: steps from {:.6g} to {:.6g} mm put slices up to {:.3g} mm off a regular "
-        "grid; the limit is {:.3g} mm{}",
-        *shortest, *longest, worst, tolerance, kWayOut));
+    const double tolerance = std::max(
+        {kRelativeTolerance * mean, kAlongToleranceMm, rounding_mm(stack, stack.slices.front().placement.normal(), mean)});
+    throw UnevenSlicesError(fmt::format(
+        "the slice spacing is irregular: steps from {:.6g} to {:.6g} mm put slices up to {:.3g} mm off a regular grid; the "
+        "limit is {:.3g} mm{}",
+        *shortest, *longest, off_even_mm(positions), tolerance, kWaysOut));
+}
+
+/// Even steps from the first to the last position, near the usual step; a note says how many slices are made up.
+std::vector<SliceBetween> resampled(const DicomStack& stack, const std::vector<double>& positions,
+                                    std::vector<std::string>& notes) {
+    const std::vector<double> steps = steps_between(positions);
+    const double total = positions.back(), usual = lower_median(steps);
+    if (!(total / usual < kMostResampled)) refuse_uneven(stack, positions);
+    const auto count = static_cast<std::size_t>(std::llround(total / usual)) + 1;
+    const double step = total / static_cast<double>(count - 1);
+    std::vector<SliceBetween> slices;
+    std::size_t made_up = 0, before = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double place = static_cast<double>(k) * step;
+        while (before + 2 < positions.size() && positions[before + 1] <= place) ++before;
+        const double share = std::clamp((place - positions[before]) / steps[before], 0.0, 1.0);
+        const bool is_there = std::min(share, 1 - share) * steps[before] <= kRelativeTolerance * step;
+        made_up += !is_there;
+        if (is_there) slices.push_back({share < 0.5 ? before : before + 1, 0});
+        else slices.push_back({before, share});
+    }
+    const auto [shortest, longest] = std::minmax_element(steps.begin(), steps.end());
+    notes.push_back(fmt::format(
+        "the slices lie {:.6g} to {:.6g} mm apart and are resampled to steps of {:.6g} mm: {} of {} slices are interpolated",
+        *shortest, *longest, step, made_up, count));
+    return slices;
 }
 
 /// Slices may be shifted against each other within their planes, but by the same amount from each to the next.
-void check_shift(const DicomStack& stack, const Vec3& step) {
+void check_shift(const DicomStack& stack, const std::vector<double>& positions, const Vec3& step) {
     const SlicePlacement& first = stack.slices.front().placement;
+    const double along = dot(step, first.normal());
     const double tolerance = std::max({kRelativeTolerance * norm(step), kAcrossToleranceMm,
                                        rounding_mm(stack, shares_across(first.normal()), norm(step))});
     for (std::size_t k = 0; k < stack.slices.size(); ++k) {
-        const double off = distance(stack.slices[k].placement.position, first.position + static_cast<double>(k) * step);
+        const Vec3 off_plane = stack.slices[k].placement.position - (first.position + positions[k] / along * step);
+        const double off = norm(off_plane);
         if (off > tolerance)
             refuse(fmt::format("the slice at {} is shifted by {:.3g} mm against its neighbours; the limit is {:.3g} mm{}",
                                PositionNames(stack).at(stack.slices[k]), off, tolerance, kWayOut));
@@ -172,30 +216,44 @@ Vec3 single_slice_step(const DicomHeader& slice, std::vector<std::string>& notes
     return *slice.thickness_mm * slice.placement.normal();
 }
 
-Vec3 slice_step(const DicomStack& stack, std::vector<std::string>& notes) {
+/// The step from slice to slice, and where these are resampled.
+struct Steps {
+    Vec3 step;
+    std::vector<SliceBetween> resampled{};
+};
+
+Steps slice_steps(const DicomStack& stack, bool resample, std::vector<std::string>& notes) {
     const DicomHeader &first = stack.slices.front(), &last = stack.slices.back();
-    if (stack.slices.size() == 1) return single_slice_step(first, notes);
+    if (stack.slices.size() == 1) return {single_slice_step(first, notes)};
     const std::vector<double> positions = positions_along_normal(stack.slices);
     refuse_duplicates(stack, positions);
-    check_spacing(stack, positions, notes);
-    const Vec3 step = (last.placement.position - first.placement.position) / static_cast<double>(stack.slices.size() - 1);
-    check_shift(stack, step);
-    if (std::string note = tilt_note(step, first.placement.normal(), stack.slices.size()); !note.empty())
+    Steps steps;
+    if (!is_even(stack, positions, notes)) {
+        if (!resample) refuse_uneven(stack, positions);
+        steps.resampled = resampled(stack, positions, notes);
+    }
+    const std::size_t count = steps.resampled.empty() ? positions.size() : steps.resampled.size();
+    steps.step = (last.placement.position - first.placement.position) / static_cast<double>(count - 1);
+    check_shift(stack, positions, steps.step);
+    if (std::string note = tilt_note(steps.step, first.placement.normal(), count); !note.empty())
         notes.push_back(std::move(note));
-    return step;
+    return steps;
 }
 
 }  // namespace
 
-StackGrid stack_grid(const DicomStack& stack) {
+StackGrid stack_grid(const DicomStack& stack, bool resample) {
     const DicomHeader& first = stack.slices.front();
     StackGrid result;
     result.notes = stack.notes;
-    result.grid.size = {first.columns, first.rows, static_cast<std::int64_t>(stack.slices.size())};
+    Steps steps = slice_steps(stack, resample, result.notes);
+    const std::size_t slices = steps.resampled.empty() ? stack.slices.size() : steps.resampled.size();
+    result.grid.size = {first.columns, first.rows, static_cast<std::int64_t>(slices)};
+    result.resampled = std::move(steps.resampled);
     Affine3& affine = result.grid.index_to_mm;
     affine.set_column(0, first.placement.spacing_mm[0] * first.placement.row_direction);
     affine.set_column(1, first.placement.spacing_mm[1] * first.placement.column_direction);
-    affine.set_column(2, slice_step(stack, result.notes));
+    affine.set_column(2, steps.step);
     affine.translation = first.placement.position;
     check_grid(result.grid);
     return result;

@@ -16,6 +16,7 @@
 #include "kontur/io/dicom/dicom_document.h"
 #include "kontur/io/dicom/dicom_names.h"
 #include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/dicom_stack.h"
 #include "kontur/io/dicom/dicom_uid.h"
 
 namespace kontur {
@@ -75,8 +76,7 @@ private:
         std::ptrdiff_t all = 0;
         for (std::size_t offset = 0; offset < static_cast<std::size_t>(labels_.voxel_count()); ++offset)
             all += value_at(offset) != 0;
-        if (all > found)
-            throw invalid(fmt::format("{} of the mask's {} voxels lie outside of the images", all - found, all));
+        if (all > found) throw invalid(fmt::format("{} of its {} voxels lie outside of the images", all - found, all));
     }
 
     std::optional<std::size_t> offset_at(std::int64_t i, std::int64_t j, std::int64_t k) const {
@@ -101,14 +101,14 @@ private:
         if (const double volumes = std::abs(to_label_.determinant()); std::abs(volumes - 1) > kTolerance) {
             const Vec3 own = labels_.spacing_mm(), theirs = images_.spacing_mm();
             throw invalid(fmt::format(
-                "the mask's voxels of {:.6g} x {:.6g} x {:.6g} mm are not those of the images, which have {:.6g} x "
-                "{:.6g} x {:.6g} mm",
+                "its voxels of {:.6g} x {:.6g} x {:.6g} mm are not those of the images, which have {:.6g} x {:.6g} x {:.6g} "
+                "mm; kontur convert --image puts a label map on their grid",
                 own.x, own.y, own.z, theirs.x, theirs.y, theirs.z));
         }
         if (off <= kTolerance && spread <= kTolerance) return;
         throw invalid(
-            fmt::format("the mask's voxels do not lie on those of the images: they are up to {:.3g} of a voxel off; "
-                        "the limit is {:g}",
+            fmt::format("its voxels do not lie on those of the images: they are up to {:.3g} of a voxel off; the limit is "
+                        "{:g}; kontur convert --image puts a label map on their grid",
                         std::max(off, spread), kTolerance));
     }
 
@@ -141,6 +141,16 @@ void check_masks(const std::vector<Mask>& masks, const std::vector<DicomSegment>
     for (std::size_t s = 0; s < masks.size(); ++s)
         if (std::none_of(masks[s].values.begin(), masks[s].values.end(), [](std::uint8_t v) { return v != 0; }))
             throw invalid(fmt::format("the segment '{}' has no voxels", segments[s].label));
+}
+
+/// Each segment by itself onto the voxels of the images; a fault names it.
+std::vector<bool> voxels_of_segment(const MaskedSegments& content, std::size_t s, const Grid& images) {
+    const Mask& mask = content.masks[s];
+    try {
+        return Lookup(mask.grid, images).values<bool>([&](std::size_t offset) { return mask.values[offset] != 0; });
+    } catch (const Error& error) {
+        throw error.with_context(fmt::format("segment '{}'", content.segments[s].label));
+    }
 }
 
 class SegWriter {
@@ -296,8 +306,20 @@ std::uint64_t checked_bits(const Grid& grid, std::size_t segments) {
     return bits;
 }
 
-/// The images' voxels, from slices that were found to form a grid.
+/// Slices that were resampled lie on no grid, and a segmentation is written on theirs.
+void check_even(const std::vector<DicomHeader>& slices) {
+    const std::vector<double> positions = positions_along_normal(slices);
+    const double step = positions.back() / static_cast<double>(slices.size() - 1);
+    for (std::size_t k = 0; k < slices.size(); ++k)
+        if (std::abs(positions[k] - static_cast<double>(k) * step) > 0.3 * step)
+            throw Error(ErrorKind::unsupported,
+                        "the slices of the images do not lie evenly, and a DICOM segmentation has their grid; write an "
+                        "RTSTRUCT, or a mask as .seg.nrrd or .nii.gz");
+}
+
+/// The images' voxels, from slices that were found to form a grid. Throws Error(unsupported) where they do not.
 Grid grid_of(const std::vector<DicomHeader>& slices) {
+    if (slices.size() > 1) check_even(slices);
     const SlicePlacement& first = slices.front().placement;
     Grid grid;
     grid.size = {slices.front().columns, slices.front().rows, static_cast<std::int64_t>(slices.size())};
@@ -392,10 +414,7 @@ std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path
     const Grid grid = grid_of(slices);
     check_masks(masks, segments);
     for (const Mask& mask : masks) check_mask(mask);
-    const auto voxels_of = [&grid, &masks = content.masks](std::size_t s) {
-        const Mask& mask = masks[s];
-        return Lookup(mask.grid, grid).values<bool>([&](std::size_t offset) { return mask.values[offset] != 0; });
-    };
+    const auto voxels_of = [&](std::size_t s) { return voxels_of_segment(content, s, grid); };
     return write_segments(path, {segments, slices, voxels_of}, images, options, work);
 }
 

@@ -5,8 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
+#include <type_traits>
 
 #include "kontur/base/checks.h"
 #include "kontur/base/counted.h"
@@ -18,6 +20,7 @@
 #include "kontur/io/dicom/dicom_header.h"
 #include "kontur/io/dicom/dicom_pixels.h"
 #include "kontur/io/dicom/dicom_stack.h"
+#include "kontur/io/dicom/uneven_slices_error.h"
 
 namespace kontur {
 namespace {
@@ -173,6 +176,7 @@ void check_size(const Grid& grid, std::int64_t max_voxels) {
 struct ChosenStack {
     DicomStack stack;
     Grid grid;
+    std::vector<SliceBetween> resampled;
     std::vector<std::string> notes, warnings;
 };
 
@@ -194,8 +198,9 @@ ChosenStack locate_in(DicomContent content, const DicomSeriesOptions& options, c
     const std::string chosen = series_of(result.stack);
     refuse_damage_of(chosen, content);
     refuse_two_patients(chosen, content.stacks);
-    StackGrid geometry = stack_grid(result.stack);
+    StackGrid geometry = stack_grid(result.stack, options.resample_slices);
     result.grid = geometry.grid;
+    result.resampled = std::move(geometry.resampled);
     check_size(result.grid, options.max_voxels);
     DicomDoubts doubts = dicom_doubts(content, result.stack, series.has_value());
     result.notes = std::move(content.notes);
@@ -219,10 +224,31 @@ ChosenStack locate(const fs::path& path, const DicomSeriesOptions& options, cons
     if (content.stacks.empty()) refuse_empty(path, content);
     try {
         return locate_in(std::move(content), options, file);
+    } catch (const UnevenSlicesError& error) {
+        throw UnevenSlicesError(error.with_context(path.string()).what());
     } catch (const Error& error) {
         if (std::string_view(error.what()).starts_with(path.string())) throw;
         throw error.with_context(path.string());
     }
+}
+
+/// The samples at places between slices of `size` samples.
+Image::Samples at_slices(const Image::Samples& all, const std::vector<SliceBetween>& places, std::size_t size) {
+    return std::visit(
+        [&]<class Sample>(const std::vector<Sample>& samples) -> Image::Samples {
+            std::vector<Sample> between;
+            between.reserve(places.size() * size);
+            for (const auto& [slice, to_next] : places) {
+                const Sample* const here = samples.data() + slice * size;
+                const Sample* const next = to_next > 0 ? here + size : here;
+                for (std::size_t n = 0; n < size; ++n) {
+                    const double value = std::lerp(static_cast<double>(here[n]), static_cast<double>(next[n]), to_next);
+                    between.push_back(static_cast<Sample>(std::is_integral_v<Sample> ? std::round(value) : value));
+                }
+            }
+            return between;
+        },
+        all);
 }
 
 }  // namespace
@@ -269,6 +295,9 @@ DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& op
         located.notes.push_back("MONOCHROME1: shown with low values bright elsewhere; the values are kept as they are");
     DicomVolume volume;
     volume.image = {located.grid, read_pixels(located.stack, work)};
+    if (!located.resampled.empty())
+        volume.image.samples = at_slices(volume.image.samples, located.resampled,
+                                         static_cast<std::size_t>(located.grid.size.i * located.grid.size.j));
     volume.series = describe(located.stack);
     volume.notes = std::move(located.notes);
     volume.warnings = std::move(located.warnings);

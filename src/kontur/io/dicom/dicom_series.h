@@ -19,9 +19,11 @@ struct DicomSeries {
     std::string description;  ///< SeriesDescription; may be empty
     /// What sets this volume apart from others of the same series, such as "echo 2" or "time 1 of 20"; else empty.
     std::string distinction;
-    std::string frame_of_reference_uid;        ///< "" when none is named, or by each file another
-    std::vector<std::filesystem::path> files;  ///< one per slice, in the order of k; the same for frames of one file
-    std::vector<std::int64_t> frames;          ///< which frame of its file each slice is, from 1
+    std::string frame_of_reference_uid;  ///< "" when none is named, or by each file another
+    /// One per slice, in the order of k; the same for frames of one file. Of slices that were resampled those that are
+    /// there.
+    std::vector<std::filesystem::path> files;
+    std::vector<std::int64_t> frames;  ///< which frame of its file each slice is, from 1
     std::int64_t columns = 0;
     std::int64_t rows = 0;
 };
@@ -31,6 +33,9 @@ struct DicomSeriesOptions {
     std::optional<std::string> series_uid = std::nullopt;
     /// Which volume of the series, from 1; may be left out when there is only one.
     std::optional<int> volume = std::nullopt;
+    /// Slices that do not lie evenly, or of which some are missing, get even steps: the grid goes from the first to the last
+    /// one in steps near the usual one, and slices between two others are interpolated linearly. Otherwise they are refused.
+    bool resample_slices = false;
     /// Larger volumes are refused before their pixels are read.
     std::int64_t max_voxels = 2'200'000'000;
 };
@@ -73,9 +78,10 @@ Image read_dicom_slice(const std::filesystem::path& file, std::int64_t frame = 1
 /// take the narrowest type that holds all values; a fractional slope makes them float. PixelPaddingValue is kept as an
 /// ordinary value. Throws Error(invalid_input) when the options leave more than one volume, listing them, or none, or their
 /// limit is below 1, for two patients in one series and for different files with one SOP Instance UID; Error(unsupported)
-/// for missing slices, irregular spacing, several slices at one position, colour, lookup tables and other compression than
-/// JPEG, JPEG-LS, JPEG 2000, RLE and deflate; Error(corrupt_file) for damaged files of the series, naming the file;
-/// Error(too_large); Error(io) when there is nothing to read or a file cannot be read.
+/// for missing slices and irregular spacing (a UnevenSlicesError, unless they are resampled), several slices at one
+/// position, colour, lookup tables and other compression than JPEG, JPEG-LS, JPEG 2000, RLE and deflate; Error(corrupt_file)
+/// for damaged files of the series, naming the file; Error(too_large); Error(io) when there is nothing to read or a file
+/// cannot be read.
 DicomVolume read_dicom_series(const std::filesystem::path& path, const DicomSeriesOptions& options = {},
                               const Work& work = {});
 

@@ -19,6 +19,8 @@ export class ServerError extends Error {
     readonly frames?: number,
     /** Of two ways in which a NIfTI file says where it lies one has to be named. */
     readonly transforms?: boolean,
+    /** The slices of a series can be resampled. */
+    readonly uneven?: boolean,
   ) {
     super(message);
   }
@@ -174,8 +176,8 @@ export class Http {
 
 async function errorOf(reply: Response): Promise<ServerError> {
   try {
-    const { error } = (await reply.json()) as { error: { kind: string; message: string; frames?: number; transforms?: boolean } };
-    return new ServerError(error.kind, error.message, false, error.frames, error.transforms);
+    const { error } = (await reply.json()) as { error: { kind: string; message: string; frames?: number; transforms?: boolean; uneven?: boolean } };
+    return new ServerError(error.kind, error.message, false, error.frames, error.transforms, error.uneven);
   } catch {
     return new ServerError("io", `kontur answered with status ${reply.status}.`);
   }

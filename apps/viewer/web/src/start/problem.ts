@@ -56,6 +56,20 @@ export class Problem {
     choice.focus();
   }
 
+  /** Slices lie unevenly: offers to open them with others between them. */
+  askResampling(sentence: string, request: OpenRequest, goOn: (request: OpenRequest) => void): void {
+    this.set(sentence.replace(/;[^;]*$/, "")); // the rest names options of the command line
+    const go = button({
+      label: "Resample the slices",
+      title: "Open them in even steps, interpolated between the slices that are there",
+      class: "choice",
+      test: "resample",
+      click: () => goOn({ ...request, resample_slices: true }),
+    });
+    this.element.append(" ", go);
+    go.focus();
+  }
+
   /** Asks which of two that differ says where the image lies. */
   askTransform(request: OpenRequest, goOn: (request: OpenRequest) => void): void {
     this.set(

@@ -83,11 +83,12 @@ export class StartPage {
     else this.openingBar.removeAttribute("value");
   }
 
-  failed({ kind, message, frames, transforms, moved }: Failed["error"]): void {
+  failed({ kind, message, frames, transforms, uneven, moved }: Failed["error"]): void {
     this.setOpening(null);
     if (moved !== undefined && this.asked) return this.askPlace(this.asked.path, moved);
     if (frames !== undefined && this.asked) return this.problem.askFrame(this.asked, frames, "to be opened", (chosen) => void this.open(chosen));
     if (transforms && this.asked) return this.problem.askTransform(this.asked, (chosen) => void this.open(chosen));
+    if (uneven && this.asked) return this.problem.askResampling(message, this.asked, (chosen) => void this.open(chosen));
     this.problem.set(kind === "cancelled" ? "" : message);
   }
 

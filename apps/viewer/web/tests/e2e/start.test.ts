@@ -232,6 +232,29 @@ describe("the start page", () => {
     await viewer.page.close();
   });
 
+  test("offers to resample a series whose slices lie unevenly, and the project remembers", async (t) => {
+    const python = process.env["KONTUR_TEST_PYTHON"];
+    const script = process.env["KONTUR_DICOM_SERIES"];
+    if (!python || !script) return t.skip("no script that writes DICOM files");
+    const made: { status: number | null; stderr: string } = spawnSync(python, [script, "missing", join(home, "gaps")], { encoding: "utf8" });
+    assert.equal(made.status, 0, made.stderr);
+    const viewer = await visit();
+    await goHome(viewer);
+    await enter(viewer, "gaps");
+    await viewer.page.locator("[data-test=volume]").click();
+    const problem = viewer.page.locator("[data-test=start-problem]", { hasText: "slices are missing between z = 105 and 112.5" });
+    await problem.waitFor();
+    assert.doesNotMatch((await problem.textContent())!, /--/);
+    await viewer.page.keyboard.press("Enter"); // on the button, which has the keyboard
+    await viewer.ready();
+    assert.match((await viewer.pane("axial").locator(".slice-number").textContent())!, /\/ 9$/);
+    await viewer.page.click("[data-test=another]");
+    await viewer.page.locator("[data-test=recent]").first().click();
+    await viewer.ready();
+    assert.deepEqual(viewer.complaints, []);
+    await viewer.page.close();
+  });
+
   test("asks which frame of a file with several is to be opened", async () => {
     writeFrames(join(home, "study", "beating.nii"));
     const viewer = await visit();

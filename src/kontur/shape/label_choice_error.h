@@ -8,9 +8,9 @@
 namespace kontur {
 
 /// A label map has several labels, and none was chosen: Error(invalid_input) that lists them.
-class LabelNeeded : public Error {
+class LabelChoiceError : public Error {
 public:
-    explicit LabelNeeded(std::string_view message) : Error(ErrorKind::invalid_input, message) {}
+    explicit LabelChoiceError(std::string_view message) : Error(ErrorKind::invalid_input, message) {}
 };
 
 }  // namespace kontur

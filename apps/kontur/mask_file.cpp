@@ -39,22 +39,13 @@ void check_not_empty(const Mask& mask, const fs::path& path, const fs::path& ima
         throw Error(ErrorKind::invalid_input, fmt::format("no voxel of {} lies within {}", image.string(), path.string()));
 }
 
-/// Contours of a slice here and there are a drawing, not a mask.
 void check_filled_slices(const Mask& mask) {
-    const Index3& size = mask.grid.size;
-    const auto slice = static_cast<std::size_t>(size.i * size.j);
-    std::vector<std::int64_t> filled;
-    for (std::int64_t k = 0; k < size.k; ++k) {
-        const auto* first = mask.values.data() + static_cast<std::size_t>(k) * slice;
-        if (std::find(first, first + slice, 1) != first + slice) filled.push_back(k);
-    }
-    if (filled.empty()) return;
-    const std::int64_t from = filled.front(), to = filled.back();
-    if (static_cast<std::int64_t>(filled.size()) < to - from + 1)
+    const FilledSlices slices = filled_slices(mask);
+    if (slices.filled < slices.extent)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("its contours fill {} of the {} slices from the first to the last; kontur segment makes a "
                                 "mask of them, which can be corrected then",
-                                filled.size(), to - from + 1));
+                                slices.filled, slices.extent));
 }
 
 MaskFile of_contours(const CorrectCommand& command, const Grid& grid, Console& console) {

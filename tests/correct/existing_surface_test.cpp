@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "kontur/base/distance_transform.h"
+#include "kontur/correct/existing_mesh.h"
+#include "kontur/extract/mesh_mask.h"
 #include "support/mask_of.h"
 
 namespace kontur {
@@ -57,6 +59,28 @@ TEST(ExistingSurface, EndsWithTheImageHalfAVoxelBeyondIt) {
     const ExistingSurface surface(mask);
     EXPECT_NEAR(surface.value(grid.index_to_mm.apply({-0.5, 26, 15})), 0, 0.15);
     EXPECT_LT(surface.value(grid.index_to_mm.apply({-9, 26, 15})), -8);
+}
+
+TEST(ExistingMesh, IsASolidWithEachVoxelOnItsSide) {
+    for (const double mirror : {1.0, -1.0}) {
+        Grid grid = turned({1, 1.2, 2}, 0.2);
+        grid.index_to_mm.set_column(0, mirror * grid.index_to_mm.column(0));
+        const Vec3 center = grid.center_mm(24, 26, 15);
+        const Mask mask = ball(grid, center, 12);
+        const TriangleMesh mesh = existing_mesh(ExistingSurface(mask));
+        const MeshTopology solid = topology(mesh);
+        EXPECT_TRUE(solid.closed && solid.oriented);
+        EXPECT_EQ(solid.euler, 2);
+        const double ball_mm3 = 4 * 3.14159265 / 3 * 12 * 12 * 12;
+        EXPECT_NEAR(signed_volume_mm3(mesh), ball_mm3, 0.06 * ball_mm3) << "outward, on left-handed axes, too";
+        EXPECT_EQ(voxelize_mesh(mesh, grid).mask.values, mask.values);
+        for (std::size_t n = 0; n < mesh.points.size(); ++n)
+            EXPECT_GT(dot(mesh.normals[n], normalized(mesh.points[n] - center)), 0.7);
+    }
+    const Grid whole = turned({1, 1, 1}, 0);
+    const TriangleMesh cut =
+        existing_mesh(ExistingSurface({whole, std::vector<std::uint8_t>(static_cast<std::size_t>(whole.voxel_count()), 1)}));
+    EXPECT_TRUE(topology(cut).closed) << "half a voxel beyond the image";
 }
 
 TEST(DistanceTransform, KnowsSpacing) {

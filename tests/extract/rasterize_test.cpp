@@ -148,5 +148,13 @@ TEST(Rasterize, RefusesOpenEmptyAndInfiniteContours) {
     refused(Contour{});
 }
 
+TEST(Rasterize, TellsWhichSlicesAreFilled) {
+    Mask mask{oblique_sheared_grid({4, 3, 6}), std::vector<std::uint8_t>(72)};
+    EXPECT_EQ(filled_slices(mask).extent, 0);
+    mask.values[15] = mask.values[50] = 1;  // of slices 1 and 4
+    EXPECT_EQ(filled_slices(mask).filled, 2);
+    EXPECT_EQ(filled_slices(mask).extent, 4);
+}
+
 }  // namespace
 }  // namespace kontur

@@ -251,7 +251,7 @@ TEST(Project, FilesOfOthersAreRefusedAsTheyAre) {
     EXPECT_EQ(bytes_of(path), foreign);
     std::filesystem::remove(path);
     { const Project project(path, kImage); }
-    { Database(path).run("PRAGMA user_version = 2; PRAGMA journal_mode = WAL"); }
+    { Database(path).run("PRAGMA user_version = 3; PRAGMA journal_mode = WAL"); }
     const std::string newer = bytes_of(path);
     EXPECT_KONTUR_ERROR(Project(path, kImage), ErrorKind::unsupported, "newer kontur");
     EXPECT_EQ(bytes_of(path), newer);
@@ -334,8 +334,64 @@ TEST(Project, RowsThatMakeNoSenseAreRefusedBySentence) {
     }
     std::filesystem::remove(path);
     { const Project project(path, kImage); }
-    { Database(path).run("PRAGMA user_version = 2"); }
+    { Database(path).run("PRAGMA user_version = 3"); }
     EXPECT_KONTUR_ERROR(Project(path, {}), ErrorKind::unsupported, "newer kontur");
+}
+
+/// A structure that is a mask, as one step.
+Id add_mask(Project& project, const std::shared_ptr<const StoredMask>& mask) {
+    Structure structure{project.new_id(), "liver"};
+    structure.mask = StructureMask{.hash = mask->hash()};
+    Commit step{"Import a mask", {{structure.id, {}, structure}}, {}};
+    step.masks = {mask};
+    project.commit(step);
+    return structure.id;
+}
+
+std::shared_ptr<const StoredMask> a_mask() {
+    Mask mask{{{7, 5, 3}, {}}, std::vector<std::uint8_t>(105)};
+    for (const std::size_t inside : {17, 18, 19, 24, 60}) mask.values[inside] = 1;
+    return std::make_shared<const StoredMask>(mask);
+}
+
+TEST(Project, KeepsTheMasksThatItsStructuresCorrect) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    const std::shared_ptr<const StoredMask> mask = a_mask();
+    Id id = 0;
+    {
+        Project project(path, kImage);
+        EXPECT_EQ(project.database().number("PRAGMA user_version"), 1) << "older versions can open it";
+        id = add_mask(project, mask);
+        EXPECT_EQ(project.database().number("PRAGMA user_version"), 2);
+    }
+    {
+        Project project(path, {});
+        EXPECT_EQ(mask_of(project.state(), project.state().structures.at(id))->mask().values, mask->mask().values);
+        EXPECT_TRUE(project.undo());
+        EXPECT_TRUE(project.state().structures.empty());
+    }
+    Project project(path, {});
+    EXPECT_TRUE(project.redo());
+    EXPECT_EQ(mask_of(project.state(), project.state().structures.at(id))->mask().values, mask->mask().values);
+}
+
+TEST(Project, AMaskThatIsNotTheOneItWasIsRefused) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    for (const char* damage :
+         {"DELETE FROM mask", "UPDATE mask SET hash = 'x'", "UPDATE mask SET packed = x'00'",
+          "UPDATE mask SET header = '{}'", "UPDATE mask SET header = replace(header, '\"high\":[', '\"high\":[7')",
+          "UPDATE mask SET header = replace(header, '\"size\":[7', '\"size\":[8')",
+          "UPDATE mask SET packed = substr(packed, 1, length(packed) - 1)"}) {
+        std::filesystem::remove(path);
+        {
+            Project project(path, kImage);
+            add_mask(project, a_mask());
+        }
+        { Database(path).run(damage); }
+        EXPECT_KONTUR_ERROR(Project(path, {}), ErrorKind::corrupt_file, "damaged");
+    }
 }
 
 TEST(Project, EveryTruncationIsOpenedOrRefusedBySentence) {

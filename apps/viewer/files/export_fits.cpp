@@ -20,6 +20,8 @@ bool is_same(const State& a, const State& b) {
 std::set<Id> drawn_in(const State& state) {
     std::set<Id> drawn;
     for (const auto& [id, contour] : state.contours) drawn.insert(contour->structure);
+    for (const auto& [id, structure] : state.structures)
+        if (structure.mask) drawn.insert(id);
     return drawn;
 }
 
@@ -36,6 +38,7 @@ std::size_t bytes_of(const ExportFits::Fits& fits) {
     std::size_t bytes = 0;
     for (const FittedStructure& one : *fits) {
         bytes += one.made.mask.values.size();
+        if (one.corrected) bytes += 2 * one.corrected->origin.size();
         if (one.made.mesh)
             bytes += one.made.mesh->points.size() * sizeof(Vec3) +
                      one.made.mesh->triangles.size() * sizeof(one.made.mesh->triangles.front());

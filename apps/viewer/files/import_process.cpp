@@ -61,7 +61,7 @@ void limit_this_process(pid_t server) {
     signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit then fails, and is told as such
 }
 
-constexpr int kWords = 8;
+constexpr int kWords = 9;
 
 std::vector<std::string> words_of(const Upload& upload) {
     std::string axes;
@@ -75,16 +75,19 @@ std::vector<std::string> words_of(const Upload& upload) {
             std::to_string(upload.trace.planes),
             axes,
             upload.trace.preview ? "preview" : "import",
+            upload.purpose == Upload::Purpose::correct ? "correct" : "contours",
             std::to_string(getpid())};
 }
 
 Upload upload_from(char** words) {
-    const std::string_view content = words[2], axes = words[5];
+    const std::string_view content = words[2], axes = words[5], purpose = words[7];
     const auto has = [&](char axis) { return axes.find(axis) != std::string_view::npos; };
     return {content == "mask" ? Upload::Content::mask : Upload::Content::contours,
             words[3],
             {std::atoi(words[4]), has('a'), has('s'), has('c'), std::string_view(words[6]) == "preview"},
-            false};
+            false,
+            {},
+            purpose == "correct" ? Upload::Purpose::correct : Upload::Purpose::contours};
 }
 
 /// The process that reads; killed where it is no longer wanted.
@@ -149,7 +152,7 @@ void check_ended_in_time(int status) {
 
 std::optional<Upload> begin_import_process(int argc, char** argv) {
     if (argc != kWords) return std::nullopt;
-    limit_this_process(std::atoi(argv[7]));
+    limit_this_process(std::atoi(argv[8]));
     return upload_from(argv);
 }
 

@@ -60,16 +60,16 @@ std::vector<Plane> planes_across(const Mask& mask, SliceKind kind, int count) {
     return planes;
 }
 
-ContourSet traced(const Mask& mask, const TraceRequest& request) {
+ContourSet traced(const Mask& mask, const Upload& request) {
     std::vector<Plane> planes;
     const auto add = [&](bool wanted, SliceKind kind) {
         if (!wanted) return;
-        const std::vector<Plane> more = planes_across(mask, kind, request.planes);
+        const std::vector<Plane> more = planes_across(mask, kind, request.trace.planes);
         planes.insert(planes.end(), more.begin(), more.end());
     };
-    add(request.axial, SliceKind::axial);
-    add(request.sagittal, SliceKind::sagittal);
-    add(request.coronal, SliceKind::coronal);
+    add(request.trace.axial, SliceKind::axial);
+    add(request.trace.sagittal, SliceKind::sagittal);
+    add(request.trace.coronal, SliceKind::coronal);
     return trace(mask, planes, kTraceOptions);
 }
 
@@ -98,6 +98,7 @@ struct Traced {
     std::string name;  ///< "" where the file has none
     StructureAttributes attributes{};
     std::optional<std::int64_t> label_value{};
+    std::string source{};  ///< what made it, as the file says
 };
 
 TracedMask preview_of(const Mask& mask, const ContourSet& set) {
@@ -110,8 +111,24 @@ TracedMask preview_of(const Mask& mask, const ContourSet& set) {
     return {set.name, own * voxel_ml, again * voxel_ml, 2 * both / (own + again)};
 }
 
+/// Adds the mask itself.
+void add_to_correct(Imported& imported, const Mask& mask, Traced of) {
+    if (std::ranges::find(mask.values, 1) == mask.values.end()) {
+        imported.notes.push_back(fmt::format("{} is empty", of.name.empty() ? "The mask" : of.name));
+        return;
+    }
+    ContourSet set;
+    set.name = std::move(of.name);
+    set.attributes = std::move(of.attributes);
+    if (of.label_value) imported.label_values[imported.sets.size()] = *of.label_value;
+    imported.masks[imported.sets.size()] = {std::make_shared<const StoredMask>(mask), std::move(of.source)};
+    imported.sets.push_back(std::move(set));
+}
+
 /// Adds what a mask becomes, or why it becomes nothing.
-void add_traced(Imported& imported, const Mask& mask, Traced of, const TraceRequest& request) {
+void add_traced(Imported& imported, const Mask& mask, Traced of, const Upload& request) {
+    if (request.purpose == Upload::Purpose::correct && !request.trace.preview)
+        return add_to_correct(imported, mask, std::move(of));
     ContourSet set = traced(mask, request);
     if (set.contours.empty()) {
         imported.notes.push_back(fmt::format("{} is too small to be traced", of.name.empty() ? "The mask" : of.name));
@@ -119,13 +136,13 @@ void add_traced(Imported& imported, const Mask& mask, Traced of, const TraceRequ
     }
     set.name = std::move(of.name);
     set.attributes = std::move(of.attributes);
-    if (request.preview) return imported.traced.push_back(preview_of(mask, set));
+    if (request.trace.preview) return imported.traced.push_back(preview_of(mask, set));
     if (of.label_value) imported.label_values[imported.sets.size()] = *of.label_value;
     imported.sets.push_back(std::move(set));
 }
 
 /// Every segment of a DICOM segmentation, they may overlap.
-Imported read_segments_of(const fs::path& path, const TraceRequest& request) {
+Imported read_segments_of(const fs::path& path, const Upload& request) {
     const auto [about, masks] = read_dicom_segments(path);
     if (about.segments.size() > kMostImportedLabels)
         throw Error(ErrorKind::too_large, fmt::format("the segmentation has {} segments; the limit is {}",
@@ -134,14 +151,14 @@ Imported read_segments_of(const fs::path& path, const TraceRequest& request) {
     for (std::size_t n = 0; n < masks.size(); ++n) {
         const DicomSegment& segment = about.segments[n];
         const std::string name = segment.label.empty() ? fmt::format("Segment {}", segment.number) : segment.label;
-        add_traced(imported, masks[n], {name, attributes_of(segment)}, request);
+        add_traced(imported, masks[n], {name, attributes_of(segment), {}, segment.algorithm_name}, request);
     }
     if (imported.sets.empty() && imported.traced.empty())
         throw Error(ErrorKind::invalid_input, "the segmentation has nothing that is large enough to trace");
     return imported;
 }
 
-Imported read_contours_of(const fs::path& path, const TraceRequest& request) {
+Imported read_contours_of(const fs::path& path, const Upload& request) {
     if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path);
     if (path.extension() == ".dcm" && is_dicom_seg(path)) return read_segments_of(path, request);
     ReadContours read = read_contours(path);
@@ -168,7 +185,7 @@ std::map<std::int64_t, std::map<std::int64_t, Traced>> named_layers(const fs::pa
 
 /// Adds each label; false where there is none.
 bool add_labels(Imported& imported, const Image& labels, const std::map<std::int64_t, Traced>& named,
-                const TraceRequest& request) {
+                const Upload& request) {
     const auto counts = count_labels(labels, kMostImportedLabels);
     for (const auto& [label, voxels] : counts) {
         const auto known = named.find(label);
@@ -180,7 +197,7 @@ bool add_labels(Imported& imported, const Image& labels, const std::map<std::int
     return !counts.empty();
 }
 
-Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
+Imported read_mask_of(const fs::path& path, const Upload& request) {
     Imported imported;
     bool has_labels = false;
     const auto layers = named_layers(path);
@@ -199,7 +216,7 @@ Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
 
 Imported read_import(const fs::path& path, const Upload& upload) {
     Imported imported =
-        upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path, upload.trace);
+        upload.content == Upload::Content::mask ? read_mask_of(path, upload) : read_contours_of(path, upload);
     if (path.extension() == ".dcm") imported.patient = patient_words(dicom_identity(path));
     return imported;
 }

@@ -32,6 +32,18 @@ json to_json(const std::vector<TracedMask>& all) {
     return list;
 }
 
+std::string mask_file(std::size_t place) { return fmt::format("{}.mask", place); }
+
+/// Writes them, and returns their places and headers.
+json written_masks(const ImportedMasks& masks) {
+    json list = json::array();
+    for (const auto& [place, one] : masks) {
+        write_file_atomically(mask_file(place), one.mask->packed());
+        list.push_back({{"place", place}, {"header", one.mask->header()}, {"source", one.source}});
+    }
+    return list;
+}
+
 json result_of(const Upload& upload) {
     const fs::path path = "upload" + upload.extension;
     const Imported imported = read_import(path, upload);
@@ -41,7 +53,8 @@ json result_of(const Upload& upload) {
             {"frame", imported.frame_of_reference_uid},
             {"patient", imported.patient},
             {"label_values", imported.label_values},
-            {"traced", to_json(imported.traced)}};
+            {"traced", to_json(imported.traced)},
+            {"masks", written_masks(imported.masks)}};
 }
 
 json error_json(ErrorKind kind, std::string_view sentence) {
@@ -86,6 +99,13 @@ Imported result_in(const fs::path& folder, int status, const Work& work) {
     imported.label_values = result.at("label_values").get<LabelValues>();
     for (const json& one : result.at("traced"))
         imported.traced.push_back({one.at("name"), one.at("volume_ml"), one.at("traced_ml"), one.at("dice")});
+    for (const json& one : result.at("masks")) {
+        work.check();
+        const auto place = one.at("place").get<std::size_t>();
+        imported.masks[place] = {
+            std::make_shared<const StoredMask>(one.at("header").get<std::string>(), read_bytes(folder / mask_file(place))),
+            one.at("source").get<std::string>()};
+    }
     return imported;
 }
 

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "kontur/base/work.h"
 #include "kontur/shape/contour.h"
+#include "viewer/model/stored_mask.h"
 
 namespace kontur::viewer {
 
@@ -29,15 +31,29 @@ struct TraceRequest {
 /// A file that a page has sent.
 struct Upload {
     enum class Content { contours, mask };
+    /// What becomes of masks, and of contours that fill their slices.
+    enum class Purpose {
+        contours,  ///< masks are traced
+        correct,   ///< a mask that contours correct
+    };
     Content content = Content::contours;
     std::string extension{};  ///< one that kontur knows
     TraceRequest trace{};     ///< of a mask or segmentation
     bool anyway = false;      ///< whether it comes in though it may not belong to the image
     std::string file{};       ///< its name, for what has none of its own; nothing is opened by it
+    Purpose purpose = Purpose::contours;
 };
 
 /// Of structures that were labels of a map, by their place in the list.
 using LabelValues = std::map<std::size_t, std::int64_t>;
+
+/// A mask to be corrected.
+struct ImportedMask {
+    std::shared_ptr<const StoredMask> mask;
+    std::string source{};  ///< what made it, as its file says; "" where that says nothing
+};
+/// Of structures that are such masks, by their place in the list.
+using ImportedMasks = std::map<std::size_t, ImportedMask>;
 
 /// What the contours of a mask make of it again.
 struct TracedMask {
@@ -47,12 +63,13 @@ struct TracedMask {
 };
 
 struct Imported {
-    std::vector<ContourSet> sets;          ///< one for each structure of the file, none of them empty
+    std::vector<ContourSet> sets;          ///< one for each structure of the file; empty where it is a mask to be corrected
     std::vector<std::string> notes;        ///< how the file was read, for the user to see
     std::string frame_of_reference_uid{};  ///< "" when none is named
     std::string patient{};                 ///< whom a DICOM file is of, for people; "" where it does not say
     LabelValues label_values{};            ///< of those sets that had one
     std::vector<TracedMask> traced{};      ///< of a preview; there are no sets then
+    ImportedMasks masks{};
 };
 
 /// What the file holds, read by this program in a process of its own, with limits on memory and time: a file that crashes a

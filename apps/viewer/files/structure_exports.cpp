@@ -10,6 +10,7 @@
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/slice_contours.h"
+#include "kontur/image/intensities.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/rtstruct.h"
@@ -24,6 +25,7 @@
 #include "viewer/model/label_values.h"
 #include "viewer/model/temporary_files.h"
 #include "viewer/surfaces/border_sharing.h"
+#include "viewer/surfaces/corrected_mask.h"
 
 namespace kontur::viewer {
 namespace {
@@ -60,10 +62,10 @@ std::vector<std::int64_t> places_of(const All& all) {
 Provenance together(const All& all, const std::vector<std::int64_t>& numbers) {
     Provenance made;
     for (std::size_t n = 0; n < all.size(); ++n)
-        for (const auto& [name, value] : provenance(all[n].set, all[n].made.mask.grid, all[n].made.report)) {
+        for (const auto& [name, value] : provenance_of(all[n])) {
             const std::pair entry{name, value};
             if (n == 0 && std::all_of(all.begin(), all.end(), [&](const FittedStructure& one) {
-                    const Provenance its = provenance(one.set, one.made.mask.grid, one.made.report);
+                    const Provenance its = provenance_of(one);
                     return std::find(its.begin(), its.end(), entry) != its.end();
                 }))
                 made.push_back(entry);
@@ -117,6 +119,21 @@ void write_layers(const fs::path& path, const All& all) {
     write_seg_nrrd_masks(path, masks, segments, together(all, values));
 }
 
+/// Who made the mask, and what corrected it, if anything did.
+void name_source(DicomSegment& segment, const FittedStructure& one) {
+    constexpr std::size_t kMostBytes = 64;
+    const std::string& source = one.structure.mask->source;
+    const std::string own = one.set.attributes.generation_algorithm;
+    if (one.corrected->report.dice == 1) {
+        segment.algorithm_name = source;
+        if (!own.empty()) segment.algorithm_type = own;
+        return;
+    }
+    const std::string both = source + " + kontur correct";
+    segment.algorithm_type = "SEMIAUTOMATIC";
+    segment.algorithm_name = source.empty() || both.size() > kMostBytes ? "kontur correct" : both;
+}
+
 std::vector<std::string> write_seg(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
     std::vector<Mask> masks;
     std::vector<DicomSegment> segments;
@@ -125,6 +142,7 @@ std::vector<std::string> write_seg(const fs::path& path, const All& all, const D
         segments.push_back(fitted_segment(one.set.attributes));
         segments.back().number = static_cast<std::int64_t>(segments.size());
         segments.back().label = one.structure.name;
+        if (one.corrected) name_source(segments.back(), one);
     }
     return write_dicom_seg_masks(
         path, {masks, segments}, images,
@@ -137,8 +155,8 @@ std::vector<std::string> write_regions(const fs::path& path, const All& all, con
     for (const FittedStructure& one : all) {
         Roi roi;
         roi.name = one.structure.name;
-        roi.contours =
-            one.shares_border ? slice_outlines(one.made.mask) : slice_contours(one.made.mask, one.made.function, work);
+        roi.contours = one.shares_border || one.corrected ? slice_outlines(one.made.mask)
+                                                          : slice_contours(one.made.mask, one.made.function, work);
         roi.contours.name = one.structure.name;
         roi.contours.attributes = fitted_attributes(one.set.attributes);
         set.rois.push_back(std::move(roi));
@@ -161,7 +179,7 @@ void write_meshes(const fs::path& path, std::string_view name, const All& all) {
         for (int number = 2; is_taken(stem + ending); ++number)
             stem = fmt::format("{}_{}", plain_name(one.structure.name), number);
         const fs::path file = folder.path() / (stem + ending);
-        write_mesh(file, *one.made.mesh, provenance(one.set, one.made.mask.grid, one.made.report));
+        write_mesh(file, *one.made.mesh, provenance_of(one));
         entries.push_back({stem + ending, read_bytes(file)});
     }
     write_file_atomically(path, zip(entries));
@@ -203,6 +221,38 @@ bool reaches_into(const Grid& grid, const ContourSet& set) {
     }
 }
 
+/// Where masks are wanted, and whether surfaces are, too.
+struct Wanted {
+    const Image& image;
+    const Grid& grid;
+    bool mesh;
+};
+
+/// A mask with its corrections.
+FittedStructure corrected(const State& state, const Structure& structure, const Wanted& wanted, const Work& work) {
+    FittedStructure one{structure, contour_set(state, structure.id), {}, false, {}};
+    try {
+        const Mask before = mask_of(state, structure)->mask();
+        const Image* shown = asked(state, wanted.image);
+        if (shown && is_label_map(*shown)) shown = nullptr;
+        one.corrected = std::make_shared<const CorrectedMask>(correct({before, ExistingSurface(before, work), shown},
+                                                                      corrections_of(one.set, *structure.mask),
+                                                                      correct_options(*structure.mask), work));
+        one.made.mask = on_grid(one.corrected->mask, wanted.grid, work);
+        if (wanted.mesh) one.made.mesh = mesh_of(one.corrected->mask, work);
+    } catch (const Error& error) {
+        throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
+    }
+    return one;
+}
+
+/// Adds the masks that are to be corrected, each at its place.
+void add_corrected(std::vector<FittedStructure>& all, const State& state, const Wanted& wanted, const Work& work) {
+    for (const auto& [id, structure] : state.structures)
+        if (structure.mask) all.push_back(corrected(state, structure, wanted, work));
+    std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
+}
+
 std::vector<FittedStructure> fit_together(const State& state, const Image& image, const Grid& grid, bool with_mesh,
                                           const Work& work) {
     std::vector<FittedStructure> all;
@@ -210,7 +260,7 @@ std::vector<FittedStructure> fit_together(const State& state, const Image& image
     std::vector<Id> ids;
     for (const auto& [id, structure] : state.structures) {
         ContourSet set = contour_set(state, id);
-        if (set.contours.empty()) continue;
+        if (set.contours.empty() || structure.mask) continue;
         sets.push_back(set);
         ids.push_back(id);
         all.push_back({structure, std::move(set), {}});
@@ -239,7 +289,7 @@ std::vector<FittedStructure> fit_each(const State& state, const Image& image, co
     std::vector<FittedStructure> all;
     for (const auto& [id, structure] : state.structures) {
         ContourSet set = contour_set(state, id);
-        if (set.contours.empty()) continue;
+        if (set.contours.empty() || structure.mask) continue;
         const SegmentOptions options{.smoothing = structure.smoothing, .mesh = with_mesh, .drawn_on = image.grid};
         try {
             Segmentation made = segment(set, grid, asked(state, image), options, work);
@@ -255,6 +305,7 @@ std::vector<FittedStructure> fit_each(const State& state, const Image& image, co
 
 std::vector<FittedStructure> fit_structures(const State& state, const Image& image, bool with_mesh, const Work& work) {
     auto all = (state.borders.shared ? fit_together : fit_each)(state, image, image.grid, with_mesh, work);
+    add_corrected(all, state, {image, image.grid, with_mesh}, work);
     if (all.empty()) throw Error(ErrorKind::invalid_input, "no structure has contours");
     return all;
 }
@@ -264,10 +315,15 @@ std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& st
     for (const auto& found : state.structures)
         if (!reaches_into(grid, contour_set(state, found.first)))
             std::erase_if(within.contours, [&](const auto& item) { return item.second->structure == found.first; });
-    return (state.borders.shared ? fit_together : fit_each)(within, image, grid, false, work);
+    auto all = (state.borders.shared ? fit_together : fit_each)(within, image, grid, false, work);
+    add_corrected(all, state, {image, grid, false}, work);
+    std::erase_if(all, [](const FittedStructure& one) { return one.corrected && voxels_of(one.made.mask) == 0; });
+    return all;
 }
 
 FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work) {
+    if (structure_of(state, structure).mask)
+        return corrected(state, structure_of(state, structure), {image, image.grid, with_mesh}, work);
     ContourSet set = contour_set(state, structure);
     const bool is_alone = std::all_of(state.contours.begin(), state.contours.end(),
                                       [&](const auto& item) { return item.second->structure == structure; });
@@ -280,6 +336,16 @@ FittedStructure fit_structure(const State& state, Id structure, const Image& ima
     const auto chosen =
         std::find_if(all.begin(), all.end(), [&](const FittedStructure& one) { return one.structure.id == structure; });
     return std::move(*chosen);
+}
+
+Provenance provenance_of(const FittedStructure& one) {
+    if (!one.corrected) return provenance(one.set, one.made.mask.grid, one.made.report);
+    const StructureMask& mask = *one.structure.mask;
+    return {{"mask_sha256", mask.hash},
+            {"contours_sha256", contours_sha256(one.set)},
+            {"version", KONTUR_VERSION},
+            {"options", fmt::format("correct reach={} drop_loose={} confirmed={} image={}", mask.reach, mask.drop_loose,
+                                    mask.confirmed_planes.size(), one.corrected->report.image ? "used" : "none")}};
 }
 
 bool is_export_of_all(std::string_view name) {

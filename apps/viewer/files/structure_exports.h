@@ -3,12 +3,14 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/correct_mask.h"
 #include "kontur/io/dicom/dicom_series.h"
 #include "kontur/segment.h"
 #include "viewer/model/model.h"
@@ -29,12 +31,17 @@ struct FittedStructure {
     ContourSet set;
     Segmentation made;
     bool shares_border = false;  ///< mask and mesh are not those that the function alone would give
+    std::shared_ptr<const CorrectedMask>
+        corrected{};  ///< of a mask to be corrected, on its own grid; `made` has no function
 };
 
-/// All structures that have contours, in the order they were made, hidden ones too, on the image's grid; with their surfaces
-/// if wished. The image is asked where the project uses it. Where its structures share borders, masks and surfaces do, by
-/// its rules (see segment_together). Throws Error(invalid_input) where there is none, and what `segment` throws, with the
-/// structure's name.
+/// How it was made, for its files.
+Provenance provenance_of(const FittedStructure& one);
+
+/// All structures that have contours or a mask, in the order they were made, hidden ones too, on the image's grid; with
+/// their surfaces if wished. The image is asked where the project uses it. Where its structures share borders, masks and
+/// surfaces do, by its rules (see segment_together); masks to be corrected share none. Throws Error(invalid_input) where
+/// there is none, and what `segment` throws, with the structure's name.
 std::vector<FittedStructure> fit_structures(const State& state, const Image& image, bool with_mesh, const Work& work);
 
 /// The same on another grid, for the values of another image there: masks only, and only of the structures whose contours

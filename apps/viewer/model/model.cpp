@@ -68,6 +68,20 @@ ContourSet without_contours(const Structure& s) {
     return {s.name, {}, s.interior, s.exterior, s.surface_points, s.empty_planes, attributes_of(s)};
 }
 
+std::shared_ptr<const StoredMask> mask_of(const State& state, const Structure& structure) {
+    if (!structure.mask) return nullptr;
+    const auto found = state.masks.find(structure.mask->hash);
+    if (found == state.masks.end())
+        throw Error(ErrorKind::invalid_input, fmt::format("the mask of {} is not there", structure.name));
+    return found->second;
+}
+
+bool has_content(const State& state, Id structure) {
+    const auto own = state.structures.find(structure);
+    return (own != state.structures.end() && own->second.mask) ||
+           std::ranges::any_of(state.contours, [&](const auto& item) { return item.second->structure == structure; });
+}
+
 ContourSet contour_set(const State& state, Id structure) {
     ContourSet set = without_contours(structure_of(state, structure));
     for (const auto& [id, contour] : state.contours)
@@ -75,8 +89,17 @@ ContourSet contour_set(const State& state, Id structure) {
     return set;
 }
 
+namespace {
+constexpr double kParallelCosine = 0.99985;
+}
+
+bool is_same_plane(const Plane& a, const Plane& b) {
+    constexpr double kNear_mm = 1e-3;
+    return std::abs(dot(a.normal, b.normal)) >= kParallelCosine && std::abs(a.distance_to(b.origin)) <= kNear_mm &&
+           std::abs(b.distance_to(a.origin)) <= kNear_mm;
+}
+
 bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm) {
-    constexpr double kParallelCosine = 0.99985;
     return std::abs(dot(contour.plane.normal, plane.normal)) >= kParallelCosine &&
            std::all_of(contour.points.begin(), contour.points.end(),
                        [&](const Vec3& p) { return std::abs(plane.distance_to(p)) <= 0.5 * thickness_mm; });

@@ -11,6 +11,7 @@
 
 #include "kontur/shape/contour.h"
 #include "viewer/model/border_rules.h"
+#include "viewer/model/stored_mask.h"
 
 // What a project holds: structures and the contours drawn for them.
 
@@ -67,6 +68,17 @@ Contour as_contour(const DrawnContour& contour);
 
 constexpr std::int64_t kLargestLabelValue = 65535;  ///< that label maps are written with
 
+/// Of a structure that is a mask to be corrected: its contours replace outlines of that mask, or pieces of them.
+struct StructureMask {
+    std::string hash{};                     ///< names the mask among the project's
+    std::vector<Plane> confirmed_planes{};  ///< that were looked at, and in which the mask is right
+    double reach = 1;                       ///< how far corrections are carried on, of what follows from the mask
+    bool drop_loose = false;                ///< whether pieces that a correction cuts off are taken away
+    std::string source{};                   ///< what made the mask, as its file said; "" where that said nothing
+
+    friend bool operator==(const StructureMask&, const StructureMask&) = default;
+};
+
 struct Structure {
     Id id = 0;
     std::string name;
@@ -78,6 +90,7 @@ struct Structure {
     std::vector<Vec3> interior{}, exterior{};    ///< points that lie inside, outside of it
     StructureAttributes attributes{};            ///< what its file said of it, for exports; without the colour, see above
     std::optional<std::int64_t> label_value{};   ///< in label maps; unset: one that no other structure has
+    std::optional<StructureMask> mask{};         ///< that the contours correct; unset: they are all there is of it
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };
@@ -88,6 +101,8 @@ struct State {
     std::map<Id, std::shared_ptr<const DrawnContour>> contours;
     Borders borders;
     bool use_image = true;  ///< between the contours, where it helps
+    /// By their hashes: those to be corrected, and those of the history.
+    std::map<std::string, std::shared_ptr<const StoredMask>> masks{};
 };
 
 /// What files say of the structure, its colour among it.
@@ -96,11 +111,21 @@ StructureAttributes attributes_of(const Structure& structure);
 /// What is known of the structure beside its contours, as the library takes it.
 ContourSet without_contours(const Structure& structure);
 
+/// The mask that the structure's contours correct; null for one that has none. Throws Error(invalid_input) for a mask that
+/// the state does not hold.
+std::shared_ptr<const StoredMask> mask_of(const State& state, const Structure& structure);
+
+/// Whether there is anything of it: contours, or a mask.
+bool has_content(const State& state, Id structure);
+
 /// The structure's contours as the library takes them, in the order they were made.
 ContourSet contour_set(const State& state, Id structure);
 
 /// Whether the contour is drawn in this plane: parallel to it within a degree, and all of it within half of the thickness.
 bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm);
+
+/// Whether they are the same plane, to a thousandth of a millimetre at their origins.
+bool is_same_plane(const Plane& a, const Plane& b);
 
 /// Throws Error(invalid_input) naming the id when there is none.
 const Structure& structure_of(const State& state, Id id);

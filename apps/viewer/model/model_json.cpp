@@ -107,10 +107,19 @@ json to_json(const SurfacePoint& point) {
     return told;
 }
 
+json to_json(const StructureMask& mask) {
+    json told{{"hash", mask.hash}, {"reach", mask.reach}, {"drop_loose", mask.drop_loose}};
+    if (!mask.source.empty()) told["source"] = mask.source;
+    told["confirmed_planes"] = json::array();
+    for (const Plane& plane : mask.confirmed_planes) told["confirmed_planes"].push_back(to_json(plane));
+    return told;
+}
+
 json to_json(const Structure& s) {
     json told{{"id", s.id}, {"name", s.name}, {"color", s.color}, {"visible", s.visible}};
     if (s.smoothing) told["smoothing"] = *s.smoothing;
     if (s.label_value) told["label_value"] = *s.label_value;
+    if (s.mask) told["mask"] = to_json(*s.mask);
     if (s.attributes != StructureAttributes{}) told["attributes"] = json::parse(to_json(s.attributes));
     for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
     for (const SurfacePoint& point : s.surface_points) told["surface_points"].push_back(to_json(point));
@@ -290,6 +299,21 @@ std::optional<std::int64_t> Members::label_value(const char* key) const {
     return integer(key, 1, kLargestLabelValue);
 }
 
+double Members::reach(const char* key) const {
+    constexpr double kLeast = 0.25, kMost = 4;  // of CorrectOptions
+    const double value = number(key);
+    if (value < kLeast || value > kMost)
+        refuse(fmt::format("'{}' is {}; it must lie between {} and {}", key, value, kLeast, kMost));
+    return value;
+}
+
+StructureMask mask_from_json(const json& value) {
+    constexpr std::size_t kHashBytes = 64;
+    const Members m(value, kStoredLimits);
+    return {m.text("hash", kHashBytes), m.planes("confirmed_planes"), m.reach("reach"), m.flag("drop_loose"),
+            m.has("source") ? m.text("source", kMostNameBytes) : ""};
+}
+
 Structure structure_from_json(const json& value) {
     const Members m(value, kStoredLimits);
     Structure structure{m.id("id"), m.text("name", kMostNameBytes), m.color("color"), m.flag("visible")};
@@ -299,6 +323,7 @@ Structure structure_from_json(const json& value) {
     if (m.has("surface_points")) structure.surface_points = m.surface_points("surface_points");
     if (m.has("interior")) structure.interior = m.points("interior");
     if (m.has("exterior")) structure.exterior = m.points("exterior");
+    if (m.has("mask")) structure.mask = mask_from_json(m.at("mask"));
     if (m.has("attributes")) structure.attributes = attributes_from_json(m.at("attributes").dump());
     return structure;
 }

@@ -41,12 +41,14 @@ nlohmann::json to_json(const std::vector<Vec3>& points);
 nlohmann::json to_json(const Plane& plane);
 nlohmann::json to_json(const ExpectedDice& dice);
 nlohmann::json to_json(const SurfaceUncertainty& uncertainty);
+nlohmann::json to_json(const StructureMask& mask);
 nlohmann::json to_json(const Structure& structure);
 nlohmann::json to_json(const ControlPoint& point);
 nlohmann::json to_json(const DrawnContour& contour);
 
 /// Of one structure.
 constexpr std::size_t kMostEmptyPlanes = 1000, kMostSinglePoints = 1000;
+StructureMask mask_from_json(const nlohmann::json& value);
 Structure structure_from_json(const nlohmann::json& value);
 DrawnContour contour_from_json(const nlohmann::json& value, const Limits& limits = {});
 
@@ -80,6 +82,8 @@ public:
     Hand hand(const char* key) const;
     ContourEnd end(const char* key) const;
     double weight(const char* key) const;
+    /// Of a correction, from 0.25 to 4.
+    double reach(const char* key) const;
     /// The number of an image, from 0; 0 where it is missing.
     int image(const char* key) const;
     /// The member `time`, from 0; unset where it is missing.

@@ -139,6 +139,13 @@ TraceRequest trace_request(const Target& target) {
     return request;
 }
 
+Upload::Purpose purpose_of(const Target& target) {
+    const std::string word = target.parameter("as").value_or("contours");
+    if (word == "correct") return Upload::Purpose::correct;
+    if (word == "contours") return Upload::Purpose::contours;
+    throw Error(ErrorKind::invalid_input, fmt::format("'as' is \"{}\"; contours or correct is needed", word));
+}
+
 }  // namespace
 
 HttpReply error_reply(int status, const std::string& kind, const std::string& message) {
@@ -231,7 +238,8 @@ HttpReply HttpApi::mesh(const HttpRequest& request) {
     const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
     if (!session) return nothing();
     if (!target.parameter("coded")) return binary(session->mesh(*id));
-    std::string bytes = session->mesh(*id, true, {target.parameter("widths").has_value(), far_from});
+    std::string bytes = session->mesh(
+        *id, true, {target.parameter("widths").has_value(), target.parameter("origins").has_value(), far_from});
     return target.parameter("compressed") ? compressed(bytes) : binary(std::move(bytes));
 }
 
@@ -287,7 +295,7 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     const Target& target = request.target;
     const bool anyway = target.parameter("anyway").has_value();
     const std::string file = target.parameter("name").value_or("");
-    Upload upload{.trace = trace_request(target), .anyway = anyway, .file = file};
+    Upload upload{.trace = trace_request(target), .anyway = anyway, .file = file, .purpose = purpose_of(target)};
     ImportReply reply;
     if (target.path == "/api/import/near") {
         reply = workspace_.session(request.opening)->import_near(target.parameter("file").value_or(""), upload, stop);

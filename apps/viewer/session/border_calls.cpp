@@ -63,7 +63,7 @@ Calls border_calls() { return {{"borders.set", {set_borders}}, {"borders.rule", 
 std::vector<DrawnContour> carried_with(SessionState& s, const DrawnContour& contour) {
     const State& state = s.project.state();
     const auto before = state.contours.find(contour.id);
-    if (!state.borders.shared || before == state.contours.end()) return {};
+    if (!state.borders.shared || before == state.contours.end() || structure_of(state, contour.structure).mask) return {};
     const DrawnContour& old = *before->second;
     if (old.structure != contour.structure || old.points == contour.points || old.points.size() < 3) return {};
     if (!old.closed || !contour.closed) return {};  // an open line says nothing of a border beyond its ends
@@ -71,7 +71,8 @@ std::vector<DrawnContour> carried_with(SessionState& s, const DrawnContour& cont
     const double near_mm = kNearVoxels * std::min({spacing.x, spacing.y, spacing.z});
     std::vector<DrawnContour> carried;
     for (const auto& [id, other] : state.contours) {
-        const bool is_seen = other->visible && structure_of(state, other->structure).visible;
+        const Structure& owner = structure_of(state, other->structure);
+        const bool is_seen = other->visible && owner.visible && !owner.mask;  // masks to be corrected share no borders
         if (other->structure == contour.structure || !is_seen || other->points.size() < 3) continue;
         if (!lies_in(*other, old.plane, slice_step_mm(s.image.voxels->grid, old.plane.normal))) continue;
         if (!exclude(s, contour.structure, other->structure)) continue;

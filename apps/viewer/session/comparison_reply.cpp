@@ -23,7 +23,7 @@ std::string comparison_reply(SessionState& s, Id first, Id second, const std::st
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} would be compared with itself; 2 structures are needed", a.name));
     for (const Structure& one : {a, b})
-        if (contour_set(now, one.id).contours.empty())
+        if (!has_content(now, one.id))
             throw Error(ErrorKind::invalid_input,
                         fmt::format("{} has 0 contours; at least 1 is needed to compare it", one.name));
     const StatusLine line(s.pages.status_teller(), fmt::format("Comparing {} and {}", a.name, b.name));

@@ -120,6 +120,28 @@ json path(SessionState& s, const Members& m) {
     return {{"points", to_json(drawing.points)}, {"control", std::move(control)}};
 }
 
+/// A line that cannot correct its structure's mask is refused before it is a step of the history.
+void check_correction(SessionState& s, const DrawnContour& contour) {
+    const auto mask = mask_of(s.project.state(), structure_of(s.project.state(), contour.structure));
+    if (!mask) return;
+    ContourSet plane;
+    for (const auto& [id, other] : s.project.state().contours)
+        if (id != contour.id && other->structure == contour.structure && is_same_plane(other->plane, contour.plane))
+            plane.contours.push_back(as_contour(*other));
+    plane.contours.push_back(as_contour(contour));
+    s.surfaces.check_correction(contour.structure, mask, std::move(plane));
+}
+
+/// What was said of the whole plane of a correction, empty or right, holds no longer.
+void forget_plane(const SessionState& s, const DrawnContour& contour, Commit& step) {
+    const Structure& before = structure_of(s.project.state(), contour.structure);
+    if (!before.mask) return;
+    Structure after = before;
+    const auto is_its = [&](const Plane& plane) { return is_same_plane(plane, contour.plane); };
+    if (std::erase_if(after.empty_planes, is_its) + std::erase_if(after.mask->confirmed_planes, is_its) > 0)
+        step.structures.push_back({after.id, before, after});
+}
+
 /// Stores a new or changed contour, or only shows it when the call is a draft.
 json put(SessionState& s, const std::string& label, DrawnContour contour, const Members& m) {
     std::vector<DrawnContour> carried = carried_with(s, contour);
@@ -132,11 +154,14 @@ json put(SessionState& s, const std::string& label, DrawnContour contour, const 
         for (const Id id : touched) follow(s, id);
         return result;
     }
+    check_correction(s, contour);
     if (contour.id == 0) result["contour"]["id"] = contour.id = s.project.new_id();
     Commit step = one_contour(label, s.project.state(), contour);
     for (DrawnContour& other : carried)
         step.contours.push_back({other.id, contour_of(s.project.state(), other.id), std::move(other)});
-    commit_ahead(s, step);
+    forget_plane(s, contour, step);
+    if (step.structures.empty()) commit_ahead(s, step);
+    else commit(s, step);
     return result;
 }
 

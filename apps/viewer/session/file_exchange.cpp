@@ -7,9 +7,11 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
+#include "kontur/extract/rasterize.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/bytes/png.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/contours/contour_json.h"
 #include "kontur/io/image.h"
 #include "kontur/io/images/segment_tags.h"
 #include "kontur/io/meshes/mesh.h"
@@ -64,26 +66,32 @@ std::string file_name(const SessionState& s, const std::string& of, const std::s
     return fmt::format("{}_{}{}", name_of_image(s), plain_name(of), ending);
 }
 
+/// Of a mask to be corrected its own voxels, as `kontur correct` writes them.
 void write_mask_file(const fs::path& path, const FittedStructure& one) {
     WriteMaskOptions options;
     options.segment_name = one.structure.name;
     options.segment_color = rgb(one.structure.color);
     options.segment_tags = tags_of_terms(one.set.attributes);
-    options.provenance = provenance(one.set, one.made.mask.grid, one.made.report);
-    write_mask(path, one.made.mask, options);
+    options.provenance = provenance_of(one);
+    write_mask(path, one.corrected ? one.corrected->mask : one.made.mask, options);
 }
 
 void write_mesh_file(const fs::path& path, const FittedStructure& one) {
-    write_mesh(path, *one.made.mesh, provenance(one.set, one.made.mask.grid, one.made.report));
+    write_mesh(path, *one.made.mesh, provenance_of(one));
 }
 
 void write_picture(const fs::path& path, const FittedStructure& one, const Image& image) {
-    const auto& [structure, set, made, shares_border] = one;
+    const Segmentation& made = one.made;
     PictureOptions options;
-    options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)},
-                     {"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
-                     {"Residual (rms)", fmt::format("{:.2g} mm", made.report.residual.rms_mm)}};
-    write_png(path, make_picture(*made.mesh, set, &image, options), provenance(set, image.grid, made.report));
+    if (one.corrected)
+        options.facts = {{"Volume (mask)", in_ml(one.corrected->report.volume_ml)},
+                         {"Volume before", in_ml(one.corrected->report.volume_before_ml)},
+                         {"Planes corrected", fmt::format("{}", one.corrected->report.planes.size())}};
+    else
+        options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)},
+                         {"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
+                         {"Residual (rms)", fmt::format("{:.2g} mm", made.report.residual.rms_mm)}};
+    write_png(path, make_picture(*made.mesh, one.set, &image, options), provenance_of(one));
 }
 
 /// Drawn by hand: what they were made of is the image alone.
@@ -97,6 +105,47 @@ Provenance provenance_of_drawing(const ContourSet& set, const ImageReference& im
 /// Endings are known in small letters, and a DICOM file may have none.
 std::string without_ending(const std::string& file, const std::string& ending) {
     return lower_case(file).ends_with(ending) ? file.substr(0, file.size() - ending.size()) : file;
+}
+
+/// Contours that fill each of their slices are a mask; others stay contours, with a note.
+void make_masks(Imported& imported, const Grid& grid) {
+    for (std::size_t n = 0; n < imported.sets.size(); ++n) {
+        ContourSet& set = imported.sets[n];
+        if (imported.masks.contains(n) || set.contours.empty()) continue;
+        std::string why;
+        try {
+            const Mask mask = rasterize(set, grid);
+            const FilledSlices slices = filled_slices(mask);
+            if (slices.filled == 0) why = "no voxel of the image lies within its contours";
+            else if (slices.filled < slices.extent)
+                why = fmt::format("they fill {} of the {} slices from the first to the last", slices.filled, slices.extent);
+            else {
+                imported.masks[n] = {std::make_shared<const StoredMask>(mask)};
+                ContourSet bare;
+                bare.name = set.name;
+                bare.attributes = set.attributes;
+                set = std::move(bare);
+            }
+        } catch (const Error& error) {
+            why = error.what();
+        }
+        if (!why.empty()) imported.notes.push_back(fmt::format("{} stays contours: {}", set.name, why));
+    }
+}
+
+/// As contours that can be compared with the image: of a mask the corners of its box.
+std::vector<ContourSet> extents_of(const Imported& imported) {
+    std::vector<ContourSet> sets = imported.sets;
+    for (const auto& [place, one] : imported.masks) {
+        const IndexBox& box = one.mask->box();
+        Contour corners;
+        for (int corner = 0; corner < 8; ++corner)
+            corners.points.push_back(one.mask->grid().center_mm(corner & 1 ? box.high.i : box.low.i,
+                                                                corner & 2 ? box.high.j : box.low.j,
+                                                                corner & 4 ? box.high.k : box.low.k));
+        sets[place].contours = {corners};
+    }
+    return sets;
 }
 
 /// With a note for each.
@@ -137,6 +186,8 @@ Download exported(SessionState& s, const std::string& name, std::optional<Id> st
         const auto made = [&, &now = now] { return s.fits.one(now, *structure, line.work(stop)); };
         if (is_one_of(name, kMasks)) write_mask_file(path, *made());
         else if (is_one_of(name, kMeshes)) write_mesh_file(path, *made());
+        else if (chosen.mask && name == "contours.json")
+            write_corrections_json(path, set, chosen.mask->confirmed_planes, provenance_of_drawing(set, image));
         else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
         else if (name == "picture.png") write_picture(path, *made(), *s.image.voxels);
         else throw Error(ErrorKind::unsupported, "there is no export of this name");
@@ -158,13 +209,15 @@ ImportReply import(SessionState& s, const std::string& bytes, const Upload& uplo
         if (one.name.empty()) one.name = unnamed;
     if (upload.trace.preview) return {{}, {}, imported.notes, imported.traced};
     if (!upload.anyway) {
-        auto doubts = import_doubts(imported.sets, {imported.frame_of_reference_uid, imported.patient}, s.image.voxels->grid,
-                                    {s.image.frame_of_reference_uid, patient_words(s.image.identity)});
+        auto doubts = import_doubts(extents_of(imported), {imported.frame_of_reference_uid, imported.patient},
+                                    s.image.voxels->grid, {s.image.frame_of_reference_uid, patient_words(s.image.identity)});
         if (!doubts.empty()) return {{}, std::move(doubts), {}};
     }
+    if (upload.purpose == Upload::Purpose::correct) make_masks(imported, s.image.voxels->grid);
     leave_out_taken_labels(imported, s.state());
-    const bool is_mask = upload.content == Upload::Content::mask;
-    return {add_structures(s, is_mask ? "Import a mask" : "Import contours", imported.sets, imported.label_values),
+    const bool is_mask = upload.content == Upload::Content::mask || !imported.masks.empty();
+    return {add_structures(s, is_mask ? "Import a mask" : "Import contours", imported.sets, imported.label_values,
+                           imported.masks),
             {},
             imported.notes};
 }

@@ -83,6 +83,27 @@ json save_page(SessionState& s, const Members& m) {
     return json::object();
 }
 
+/// What the corrections of a mask come to.
+json correction_json(const MaskEdit& corrected, SurfaceStage stage) {
+    const CorrectReport& report = corrected.report;
+    json pieces = json::array();
+    for (const LoosePiece& piece : report.loose_pieces)
+        pieces.push_back({{"at", to_json(piece.position)}, {"volume_ml", piece.volume_ml}, {"voxels", piece.voxels}});
+    double move_mm = 0;
+    for (const CorrectedPlane& plane : report.planes) move_mm = std::max(move_mm, plane.largest_move_mm);
+    json told{{"text", sentence(report)},
+              {"voxels", report.added_drawn + report.removed_drawn + report.added_carried + report.removed_carried +
+                             report.added_image + report.removed_image},
+              {"volume_before_ml", report.volume_before_ml},
+              {"volume_ml", report.volume_ml},
+              {"move_mm", move_mm},
+              {"reach_mm", report.reach_mm},
+              {"loose", std::move(pieces)},
+              {"dropped", report.dropped_loose}};
+    if (report.image && stage == SurfaceStage::finished) told["image"] = sentence(*report.image);
+    return told;
+}
+
 json ping(SessionState&, const Members&) { return json::object(); }
 
 }  // namespace
@@ -156,7 +177,12 @@ json surface_event(const SessionState& s, const Surface& surface) {
                                           {"distance_mm", conflict.disagreement_mm},
                                           {"contours", {conflict.contour, conflict.other}}});
     }
+    if (surface.corrected) event["correction"] = correction_json(*surface.corrected, surface.stage);
     if (!has_full_resolution(surface.stage)) return event;
+    if (surface.corrected) {
+        event["volume_ml"] = surface.volume_ml;
+        return event;
+    }
     if (surface.image.verdict != ImageVerdict::none)
         event["image"] = {{"verdict", std::string(name(surface.image.verdict))}, {"text", sentence(surface.image)}};
     const SurfaceEvidence evidence = evidence_of(s, surface);

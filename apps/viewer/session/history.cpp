@@ -30,7 +30,7 @@ json changes_json(const std::vector<Change<Row>>& changes) {
 /// Whether both ask the same of the surface.
 bool same_surface(const Structure& a, const Structure& b) {
     return a.empty_planes == b.empty_planes && a.smoothing == b.smoothing && a.surface_points == b.surface_points &&
-           a.interior == b.interior && a.exterior == b.exterior;
+           a.interior == b.interior && a.exterior == b.exterior && a.mask == b.mask;
 }
 
 bool same_surface(const DrawnContour& a, const DrawnContour& b) {
@@ -148,6 +148,8 @@ SurfaceTask surface_task(const SessionState& s, Id structure) {
     if (const auto own = state.structures.find(structure); own != state.structures.end()) {
         task.set = without_contours(own->second);
         task.smoothing = own->second.smoothing;
+        task.mask = mask_of(state, own->second);
+        if (task.mask) task.how = *own->second.mask;
     }
     const auto add = [&](const DrawnContour& contour) {
         if (contour.structure != structure) return;

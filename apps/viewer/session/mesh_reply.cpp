@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "kontur/measure/surface_distance.h"
 #include "kontur/sureness/surface_uncertainty.h"
@@ -33,7 +34,7 @@ std::string as_numbers(nlohmann::json head, const TriangleMesh& mesh, const std:
 }
 
 std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::vector<double>& widths_mm,
-                    const std::vector<double>& away_mm) {
+                    const std::vector<double>& away_mm, std::span<const std::uint8_t> origins) {
     const MeshCode code = code_mesh(mesh);
     const WidthCode widths = code_widths(widths_mm), distances = code_distances(away_mm);
     head["points"] = mesh.points.size();
@@ -47,6 +48,7 @@ std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::ve
     reply.add<std::uint8_t>("normals", code.normals);
     reply.add<std::uint8_t>("half_widths", widths.steps);
     reply.add<std::uint8_t>("distances", distances.steps);
+    reply.add<std::uint8_t>("origins", origins);
     reply.add<std::uint8_t>("triangles", code.triangles);
     return reply.bytes();
 }
@@ -73,7 +75,9 @@ std::string mesh_reply(const SessionState& s, Id structure, bool coded, const Me
     if (!coded) return as_numbers(std::move(head), mesh, widths_mm);
     std::vector<double> away_mm;
     if (extras.far_from) away_mm = distances_mm(mesh.points, mesh_of(surface_of(*extras.far_from)));
-    return as_code(std::move(head), mesh, widths_mm, away_mm);
+    std::span<const std::uint8_t> origins;
+    if (extras.origins && surface.corrected && surface.corrected->mesh == surface.mesh) origins = surface.corrected->origins;
+    return as_code(std::move(head), mesh, widths_mm, away_mm, origins);
 }
 
 }  // namespace kontur::viewer

@@ -77,18 +77,28 @@ std::string_view where(PointKind kind) {
 
 json put_points(SessionState& s, const std::string& label, const Structure& after) {
     ContourSet set = contour_set(s.project.state(), after.id);
-    if (set.contours.empty()) refuse(after.name + " has no contour yet, and a point alone makes no surface");
+    if (set.contours.empty() && !after.mask) refuse(after.name + " has no contour yet, and a point alone makes no surface");
     ContourSet wanted = without_contours(after);
     wanted.contours = std::move(set.contours);
     check_single_points(wanted);
     // Contours that cannot be followed are told with the surface.
-    if (const auto problems = set_problems(wanted); !problems.empty()) refuse(problems.front());
+    // Of a mask to be corrected they are pieces of its outlines, and no set by themselves.
+    if (!after.mask)
+        if (const auto problems = set_problems(wanted); !problems.empty()) refuse(problems.front());
     commit(s, {label + " " + after.name, {{after.id, structure_of(s.project.state(), after.id), after}}, {}});
     return {{"structure", to_json(after)}};
 }
 
+/// A mask is corrected by what lies inside and outside.
+void check_kind(const Structure& structure, PointKind kind) {
+    if (structure.mask && kind == PointKind::surface)
+        refuse(fmt::format("{} is a mask to be corrected: its points lie inside or outside, not on the surface",
+                           structure.name));
+}
+
 json add_single_point(SessionState& s, const Members& m) {
     Structure structure = structure_of(s.project.state(), m.id("structure"));
+    check_kind(structure, kind_of(m));
     check_is_new(structure, m.point("at"));
     append_point(structure, kind_of(m), m.point("at"));
     return put_points(s, fmt::format("Point {}", where(kind_of(m))), structure);
@@ -108,6 +118,7 @@ json move_single_point(SessionState& s, const Members& m) {
 json set_single_point(SessionState& s, const Members& m) {
     Structure structure = structure_of(s.project.state(), m.id("structure"));
     const FoundPoint point = known_point(structure, m.point("at"));
+    check_kind(structure, kind_of(m));
     if (point.kind == kind_of(m)) return {{"structure", to_json(structure)}};
     erase_point(structure, point);
     append_point(structure, kind_of(m), m.point("at"));

@@ -28,6 +28,7 @@ struct ImportReply {
 /// What is told of a surface's points besides where they are.
 struct MeshExtras {
     bool widths = false;           ///< of the 90 % band there, which take longer than all the rest
+    bool origins = false;          ///< who made it there, of a mask to be corrected
     std::optional<Id> far_from{};  ///< how far they are from the surface of this structure
 };
 
@@ -58,9 +59,10 @@ std::string drawings_reply(const SessionState& s, const std::stop_token& stop);
 ImportReply import_near(SessionState& s, const std::filesystem::path& file, const Upload& upload,
                         const std::stop_token& stop);
 
-/// One structure for each set, as one step of the history. A label value that another structure has is left out.
+/// One structure for each set, with the mask that its contours correct if there is one, as one step of the history. A label
+/// value that another structure has is left out.
 std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,
-                               const LabelValues& values = {});
+                               const LabelValues& values = {}, const ImportedMasks& masks = {});
 /// A new project's first structures, before its history.
 void begin_with(SessionState& s, const std::vector<ContourSet>& sets);
 /// Shows it beside the project's own image, in place of the one that was; kept with the project. Throws as

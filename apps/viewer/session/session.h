@@ -50,8 +50,9 @@ public:
     ImportReply import_near(const std::filesystem::path& file, const Upload& upload, const std::stop_token& stop = {}) {
         return viewer::import_near(state_, file, upload, stop);
     }
-    std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets) {
-        return viewer::add_structures(state_, label, sets);
+    std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets,
+                                   const ImportedMasks& masks = {}) {
+        return viewer::add_structures(state_, label, sets, {}, masks);
     }
     void begin_with(const std::vector<ContourSet>& sets) { viewer::begin_with(state_, sets); }
     void put_second_image(OpenedImage opened) { viewer::put_second_image(state_, std::move(opened)); }

@@ -84,6 +84,45 @@ void check_label_is_free(const State& state, const Structure& structure) {
                                                           owner->name, *structure.label_value));
 }
 
+/// What the message says of the mask that the structure's contours correct, and what the history calls that; "" for nothing.
+std::string change_mask(Structure& structure, const Members& m) {
+    if (!m.has("confirmed_planes") && !m.has("reach") && !m.has("drop_loose")) return "";
+    if (!structure.mask)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} is no mask to be corrected; 'confirmed_planes', 'reach' and 'drop_loose' are for those",
+                                structure.name));
+    const StructureMask before = *structure.mask;
+    StructureMask& mask = *structure.mask;
+    if (m.has("confirmed_planes")) mask.confirmed_planes = m.planes("confirmed_planes");
+    if (m.has("reach")) mask.reach = m.reach("reach");
+    mask.drop_loose = m.flag_or("drop_loose", mask.drop_loose);
+    if (mask.drop_loose != before.drop_loose)
+        return fmt::format("{} loose pieces of {}", mask.drop_loose ? "Take away" : "Keep", structure.name);
+    if (mask.reach != before.reach) return "Reach of corrections of " + structure.name;
+    if (mask.confirmed_planes == before.confirmed_planes) return "";
+    return fmt::format("{} a plane of {}",
+                       mask.confirmed_planes.size() < before.confirmed_planes.size() ? "Forget" : "Confirm", structure.name);
+}
+
+/// A plane of a mask is empty, or right, or drawn in: of what was said before and is said now of one plane the latter holds.
+void settle_planes(const State& state, const Structure& before, Structure& after) {
+    const auto says = [](const std::vector<Plane>& planes, const Plane& one) {
+        return std::ranges::any_of(planes, [&](const Plane& plane) { return is_same_plane(plane, one); });
+    };
+    const auto settle = [&](const std::vector<Plane>& known, const std::vector<Plane>& now, std::vector<Plane>& other) {
+        for (const Plane& plane : now) {
+            if (says(known, plane)) continue;
+            std::erase_if(other, [&](const Plane& one) { return is_same_plane(one, plane); });
+            for (const auto& [id, contour] : state.contours)
+                if (contour->structure == after.id && is_same_plane(contour->plane, plane))
+                    throw Error(ErrorKind::invalid_input,
+                                fmt::format("{} is drawn in this plane; delete that correction first", after.name));
+        }
+    };
+    settle(before.empty_planes, after.empty_planes, after.mask->confirmed_planes);
+    settle(before.mask->confirmed_planes, after.mask->confirmed_planes, after.empty_planes);
+}
+
 json set_structure(SessionState& s, const Members& m) {
     const Structure before = structure_of(s.project.state(), m.id("id"));
     Structure after = before;
@@ -95,12 +134,15 @@ json set_structure(SessionState& s, const Members& m) {
     if (m.has("smoothing")) after.smoothing = m.smoothing("smoothing");
     if (m.has("label_value")) after.label_value = m.label_value("label_value");
     check_label_is_free(s.project.state(), after);
+    const std::string mask_label = change_mask(after, m);
+    if (after.mask) settle_planes(s.project.state(), before, after);
     std::string label = "Show or hide " + after.name;
     if (after.empty_planes != before.empty_planes) label = fmt::format("Nothing of {} in a plane", after.name);
     if (after.empty_planes.size() < before.empty_planes.size()) label = "Forget empty planes of " + after.name;
     if (after.smoothing != before.smoothing) label = "Smoothing of " + after.name;
     if (after.label_value != before.label_value) label = "Label value of " + after.name;
     if (after.color != before.color) label = "Colour " + after.name;
+    if (!mask_label.empty()) label = mask_label;
     if (after.name != before.name) label = "Rename " + before.name;
     commit(s, {label, {{after.id, before, after}}, {}});
     return {{"structure", to_json(after)}};
@@ -132,7 +174,7 @@ json remove_structure(SessionState& s, const Members& m) {
 }
 
 Commit new_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,
-                      const LabelValues& values) {
+                      const LabelValues& values, const ImportedMasks& masks = {}) {
     Commit added{label, {}, {}};
     State state = s.project.state();
     if (const auto unused = placeholder(state)) {
@@ -153,6 +195,10 @@ Commit new_structures(SessionState& s, const std::string& label, const std::vect
         if (const auto value = values.find(place++);
             value != values.end() && !owner_of_label(state, value->second, structure.id))
             structure.label_value = value->second;
+        if (const auto mask = masks.find(place - 1); mask != masks.end()) {
+            structure.mask = StructureMask{.hash = mask->second.mask->hash(), .source = plain_text(mask->second.source)};
+            added.masks.push_back(mask->second.mask);
+        }
         state.structures[structure.id] = structure;
         added.structures.push_back({structure.id, {}, structure});
         for (const Contour& contour : set.contours) {
@@ -179,9 +225,9 @@ Calls structure_calls() {
 }
 
 std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,
-                               const LabelValues& values) {
+                               const LabelValues& values, const ImportedMasks& masks) {
     const std::scoped_lock lock(s.mutex);
-    const Commit added = new_structures(s, label, sets, values);
+    const Commit added = new_structures(s, label, sets, values, masks);
     clear_draft(s);
     s.project.commit(added);
     tell_changes(s, added);

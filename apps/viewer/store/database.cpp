@@ -107,6 +107,12 @@ Query& Query::bind(std::string_view text) {
     return *this;
 }
 
+Query& Query::bind(std::span<const std::byte> bytes) {
+    const int code = sqlite3_bind_blob64(statement_, ++bound_, bytes.data(), bytes.size(), SQLITE_TRANSIENT);
+    if (code != SQLITE_OK) database_.fail(code);
+    return *this;
+}
+
 bool Query::next() {
     const int code = sqlite3_step(statement_);
     if (code != SQLITE_ROW && code != SQLITE_DONE) database_.fail(code);
@@ -118,6 +124,11 @@ std::int64_t Query::number(int column) const { return sqlite3_column_int64(state
 std::string Query::text(int column) const {
     const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
     return text ? std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))) : std::string();
+}
+
+std::string Query::bytes(int column) const {
+    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_, column));
+    return bytes ? std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))) : std::string();
 }
 
 Transaction::Transaction(Database& database) : database_(database) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -56,6 +58,7 @@ public:
 
     Query& bind(std::int64_t value);
     Query& bind(std::string_view text);
+    Query& bind(std::span<const std::byte> bytes);
 
     /// Whether there is a (further) row.
     bool next();
@@ -64,6 +67,7 @@ public:
 
     std::int64_t number(int column) const;
     std::string text(int column) const;
+    std::string bytes(int column) const;
 
 private:
     Database& database_;

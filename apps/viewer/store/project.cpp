@@ -16,13 +16,16 @@ namespace {
 using nlohmann::json;
 
 constexpr int kApplicationId = 0x6b6f6e74;  // "kont"
-constexpr int kVersion = 1;
+constexpr int kVersion = 1;                 // of a project without masks, which older versions of kontur can open
+constexpr int kVersionWithMasks = 2;        // the table is made with the first one
 
 constexpr const char* kSchema =
     "CREATE TABLE setting (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
     "CREATE TABLE structure (id INTEGER PRIMARY KEY, data TEXT NOT NULL);"
     "CREATE TABLE contour (id INTEGER PRIMARY KEY, data TEXT NOT NULL);"
     "CREATE TABLE history (number INTEGER PRIMARY KEY, label TEXT NOT NULL, time TEXT NOT NULL, changes TEXT NOT NULL);";
+
+constexpr const char* kMaskTable = "CREATE TABLE mask (hash TEXT PRIMARY KEY, header TEXT NOT NULL, packed BLOB NOT NULL);";
 
 Structure row_from(const json& value, const Structure*) { return structure_from_json(value); }
 DrawnContour row_from(const json& value, const DrawnContour*) { return contour_from_json(value, kStoredLimits); }
@@ -108,10 +111,10 @@ void write_rows(Database& database, const std::vector<Change<Row>>& changes, con
 void check_format(const std::filesystem::path& path, std::int64_t application_id, std::int64_t version) {
     if (application_id != kApplicationId)
         throw Error(ErrorKind::corrupt_file, fmt::format("{} is no kontur project", path.string()));
-    if (version != kVersion)
+    if (version < kVersion || version > kVersionWithMasks)
         throw Error(ErrorKind::unsupported,
                     fmt::format("{} was written by a newer kontur: its version is {}, {} is supported", path.string(),
-                                version, kVersion));
+                                version, kVersionWithMasks));
 }
 
 /// `path`, once its first bytes say that it is ours, or new: SQLite alters the files of others already by opening them our
@@ -179,8 +182,10 @@ void Project::load() {
         state_.use_image = setting("use_image") == "true";  // projects of before have none: they stay what they were
         position_ = Members(numbers).integer("position", 0, kLargestId - 1);
         next_id_ = Members(numbers).id("next_id");
+        load_masks();
         for (Query rows(database_, "SELECT data FROM structure"); rows.next();) {
             const Structure structure = structure_from_json(parsed(rows.text(0)));
+            mask_of(state_, structure);
             state_.structures[structure.id] = structure;
         }
         for (Query rows(database_, "SELECT data FROM contour"); rows.next();) {
@@ -190,6 +195,15 @@ void Project::load() {
         }
     });
     is_new_ = state_.structures.empty() && database_.number("SELECT count(*) FROM history") == 0;
+}
+
+void Project::load_masks() {
+    if (database_.number("PRAGMA user_version") < kVersionWithMasks) return;
+    for (Query rows(database_, "SELECT hash, header, packed FROM mask"); rows.next();) {
+        auto mask = std::make_shared<const StoredMask>(rows.text(1), rows.bytes(2));
+        if (mask->hash() != rows.text(0)) throw Error(ErrorKind::invalid_input, "a mask is not the one that it was");
+        state_.masks[mask->hash()] = std::move(mask);
+    }
 }
 
 std::string Project::setting(std::string_view key) {
@@ -314,13 +328,30 @@ std::optional<Commit> Project::step(std::int64_t number) {
     if (!query.bind(number).next()) return std::nullopt;
     return reading(database_, [&] {
         const json changes = parsed(query.text(1));
-        return Commit{query.text(0), changes_from<Structure>(changes.at("structures")),
+        Commit commit{query.text(0), changes_from<Structure>(changes.at("structures")),
                       changes_from<DrawnContour>(changes.at("contours")), borders_change_from(changes),
                       use_image_change_from(changes)};
+        for (const auto& change : commit.structures)
+            for (const auto& side : {change.before, change.after})
+                if (side) mask_of(state_, *side);
+        return commit;
     });
 }
 
+void Project::store_masks(const Commit& commit) {
+    if (commit.masks.empty()) return;
+    if (database_.number("PRAGMA user_version") < kVersionWithMasks)
+        database_.run(fmt::format("{} PRAGMA user_version = {};", kMaskTable, kVersionWithMasks).c_str());
+    for (const auto& mask : commit.masks)
+        Query(database_, "INSERT OR REPLACE INTO mask VALUES (?1, ?2, ?3)")
+            .bind(mask->hash())
+            .bind(mask->header())
+            .bind(std::as_bytes(std::span(mask->packed())))
+            .finish();
+}
+
 void Project::store(const Commit& commit, std::int64_t new_position) {
+    store_masks(commit);
     write_rows(database_, commit.structures, "INSERT OR REPLACE INTO structure VALUES (?1, ?2)",
                "DELETE FROM structure WHERE id = ?1");
     write_rows(database_, commit.contours, "INSERT OR REPLACE INTO contour VALUES (?1, ?2)",
@@ -332,6 +363,7 @@ void Project::store(const Commit& commit, std::int64_t new_position) {
 }
 
 void Project::apply(const Commit& commit) {
+    for (const auto& mask : commit.masks) state_.masks[mask->hash()] = mask;
     for (const auto& change : commit.structures) {
         if (change.after) state_.structures[change.id] = *change.after;
         else state_.structures.erase(change.id);

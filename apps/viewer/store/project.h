@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,7 @@ struct Commit {
     std::vector<Change<DrawnContour>> contours;
     std::optional<BordersChange> borders{};
     std::optional<UseImageChange> use_image{};
+    std::vector<std::shared_ptr<const StoredMask>> masks{};  ///< that its structures correct; they stay when it is undone
 
     bool is_empty() const { return structures.empty() && contours.empty() && !borders && !use_image; }
 };
@@ -100,6 +102,8 @@ private:
     std::optional<std::string> label(std::int64_t number);
     std::optional<Commit> step(std::int64_t number);
     void store(const Commit& commit, std::int64_t new_position);
+    void store_masks(const Commit& commit);
+    void load_masks();
     void apply(const Commit& commit);
 
     Database database_;

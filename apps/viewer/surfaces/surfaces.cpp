@@ -121,12 +121,15 @@ std::string_view name(SurfaceStage stage) noexcept {
 }
 
 Surfaces::~Surfaces() {
-    Editors editors;  // ended without the lock, and before the map that their threads look through
+    Retired editors;  // ended without the lock, and before the map that their threads look through
     const std::scoped_lock lock(mutex_);
     later_.clear();
     sharing_stop_.request_stop();  // its thread is ended last
     editors.swap(retired_);
-    for (auto& [structure, follower] : followers_) editors.push_back(std::move(follower.editor));
+    for (auto& [structure, follower] : followers_) {
+        editors.push_back(std::move(follower.editor));
+        editors.push_back(std::move(follower.mask_editor));
+    }
 }
 
 void Surfaces::outdate(const std::set<Id>& structures) {
@@ -150,7 +153,7 @@ void Surfaces::use_image(std::shared_ptr<const Image> image) {
 }
 
 void Surfaces::follow(SurfaceTask task) {
-    Editors retired;  // ended when the lock is free again, for which their threads may wait
+    Retired retired;  // ended when the lock is free again, for which their threads may wait
     const std::scoped_lock lock(mutex_);
     retired.swap(retired_);
     std::erase_if(later_, [&](const SurfaceTask& waiting) { return waiting.structure == task.structure; });
@@ -186,6 +189,13 @@ void Surfaces::start(SurfaceTask task) {
     sharing_stop_.request_stop();
     Follower& follower = followers_[structure];
     follower.is_outdated = false;
+    if (task.mask) return start_mask(follower, std::move(task));
+    if (follower.mask_editor) {
+        retired_.push_back(std::move(follower.mask_editor));
+        follower.edits_before = follower.last_edit;
+        follower.tasks.clear();
+        follower.is_working = false;
+    }
     if (follower.editor && follower.smoothing != task.smoothing) retired_.push_back(std::move(follower.editor));
     if (!follower.editor) {
         if (task.set.contours.empty()) return publish_locked(no_surface(structure));
@@ -223,12 +233,16 @@ void Surfaces::begin_editor(Follower& follower, const SurfaceTask& task) {
 void Surfaces::wait() {
     for (bool is_done = false; !is_done;) {
         Editors editors;
+        std::vector<std::shared_ptr<MaskEditor>> mask_editors;
         {
             const std::scoped_lock lock(mutex_);
             is_done = later_.empty();
             for (const auto& [structure, follower] : followers_)
                 if (follower.editor) editors.push_back(follower.editor);
+            for (const auto& [structure, follower] : followers_)
+                if (follower.mask_editor) mask_editors.push_back(follower.mask_editor);
         }
+        for (const auto& editor : mask_editors) editor->wait();
         for (const auto& editor : editors) editor->wait();
         std::unique_lock lock(mutex_);
         sharing_changed_.wait(lock, [&] { return !is_sharing_wanted_ && !is_sharing_; });

@@ -19,6 +19,7 @@
 #include "viewer/model/model.h"
 #include "viewer/surfaces/border_sharing.h"
 #include "viewer/surfaces/edges_beside.h"
+#include "viewer/surfaces/mask_editor.h"
 #include "viewer/surfaces/section_faults.h"
 
 namespace kontur::viewer {
@@ -78,6 +79,7 @@ struct Surface {
     std::shared_ptr<const ContourSet> drawn;            ///< what it was made from
     ImageReport image;                                  ///< what became of the image, when finished
     std::shared_ptr<const TriangleMesh> without_image;  ///< what the contours alone make; null where no image was used
+    std::shared_ptr<const MaskEdit> corrected;          ///< of a mask to be corrected; null else
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.
@@ -85,7 +87,9 @@ struct SurfaceTask {
     Id structure = 0;
     ContourSet set;
     std::vector<Id> ids;
-    std::optional<double> smoothing{};  ///< of the fit; unset: the usual one
+    std::optional<double> smoothing{};         ///< of the fit; unset: the usual one
+    std::shared_ptr<const StoredMask> mask{};  ///< that the contours correct; null: they are all there is
+    StructureMask how{};                       ///< it is corrected
 };
 
 /// The closed lines, in mm, where a surface meets a plane.
@@ -127,6 +131,9 @@ public:
     /// The same for a structure that nobody waits for: such ones come one after the other, when nothing else is computed,
     /// or in place of what is computed for them already.
     void follow_later(SurfaceTask task);
+    /// Throws Error(invalid_input) for a line that can be no correction of the structure's mask, beside the others of its
+    /// plane; they are the last of `plane` and those before it.
+    void check_correction(Id structure, const std::shared_ptr<const StoredMask>& mask, ContourSet plane);
     /// Contours that are followed from now on were drawn on this image, and it is asked; null: none is.
     void use_image(std::shared_ptr<const Image> image);
     /// From now on these hold. Does not wait.
@@ -161,8 +168,10 @@ private:
         int tenths = 0;                      ///< ... and how far it was
         std::shared_ptr<LiveEditor> editor;  ///< null without contours: each one is a thread
         std::optional<double> smoothing{};   ///< with which the editor was made
+        std::shared_ptr<MaskEditor> mask_editor;  ///< in place of the editor, of a mask with corrections
     };
     using Editors = std::vector<std::shared_ptr<LiveEditor>>;
+    using Retired = std::vector<std::shared_ptr<void>>;
 
     void start(SurfaceTask task);
     void begin_editor(Follower& follower, const SurfaceTask& task);
@@ -177,6 +186,11 @@ private:
     void finish_locked(Follower& follower, const SurfaceTask& task);
 
     // Sharing borders (surfaces_shared.cpp).
+    // Masks to be corrected (surfaces_masks.cpp).
+    void start_mask(Follower& follower, SurfaceTask task);
+    void begin_mask_editor(Follower& follower, Id structure, const std::shared_ptr<const StoredMask>& mask);
+    void hear_mask(Id structure, std::uint64_t edit, const MaskUpdate& update);
+
     bool is_busy_locked() const;
     bool hand_over(const SurfaceTask& task, const Alone& alone);
     bool ask_to_share_locked();
@@ -197,7 +211,7 @@ private:
     std::condition_variable_any sharing_changed_;
     BorderSharing sharing_;  ///< of the thread
     std::deque<SurfaceTask> later_;
-    Editors retired_;                   ///< not needed any more; an editor's own thread cannot end it
+    Retired retired_;                   ///< not needed any more; an editor's own thread cannot end it
     std::map<Id, Follower> followers_;  ///< their threads use all above
     std::jthread sharing_thread_;       ///< last: it does, too
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kontur/base/geometry.h"
@@ -31,6 +32,9 @@ public:
         return {first_, {first_.i + size.i - 1, first_.j + size.j - 1, first_.k + size.k - 1}};
     }
 
+    /// f0 at the window's voxels.
+    std::span<const float> window_values() const { return values_; }
+
     double value(const Vec3& position) const;
     /// At a voxel's centre.
     double value_at_voxel(const Index3& voxel) const;
@@ -43,7 +47,8 @@ private:
     double inscribed_radius_mm_ = 0, radius_mm_ = 0;
 };
 
-/// Of the largest ball in the object: how far neighbouring surface errors are alike. At least kLeastLengthVoxels of the largest voxel side.
+/// Of the largest ball in the object: how far neighbouring surface errors are alike. At least kLeastLengthVoxels of the
+/// largest voxel side.
 inline constexpr double kLengthOfRadius = 0.5;
 inline constexpr double kLeastLengthVoxels = 1.5;
 /// Beyond so many lengths a correction changes nothing.

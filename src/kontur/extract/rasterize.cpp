@@ -80,4 +80,19 @@ Mask rasterize(const ContourSet& contours, const Grid& grid) {
     return mask;
 }
 
+FilledSlices filled_slices(const Mask& mask) {
+    const Index3& size = mask.grid.size;
+    const auto slice = static_cast<std::size_t>(size.i * size.j);
+    FilledSlices found;
+    std::int64_t first = 0, last = -1;
+    for (std::int64_t k = 0; k < size.k; ++k) {
+        const auto* voxels = mask.values.data() + static_cast<std::size_t>(k) * slice;
+        if (std::find_if(voxels, voxels + slice, [](std::uint8_t v) { return v != 0; }) == voxels + slice) continue;
+        if (found.filled++ == 0) first = k;
+        last = k;
+    }
+    found.extent = last - first + 1;
+    return found;
+}
+
 }  // namespace kontur

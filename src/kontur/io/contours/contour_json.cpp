@@ -233,12 +233,13 @@ std::string document_of(const std::string& name, const std::string& more, const 
                        json(name).dump(), more, planes);
 }
 
-std::string to_document(const ContourSet& set, const Provenance& provenance) {
+std::string to_document(const ContourSet& set, const Provenance& provenance, const std::vector<Plane>& confirmed) {
     std::string text = document_of(set.name, members_of(set.attributes), planes_text(set.contours));
     if (!set.interior.empty()) text += ",\n\"interior\": " + to_text(set.interior);
     if (!set.exterior.empty()) text += ",\n\"exterior\": " + to_text(set.exterior);
     if (!set.surface.empty()) text += ",\n\"surface\": " + to_text(set.surface);
     if (!set.empty_planes.empty()) text += ",\n\"empty_planes\": " + to_text(set.empty_planes);
+    if (!confirmed.empty()) text += ",\n\"confirmed_planes\": " + to_text(confirmed);
     if (!provenance.empty()) text += ",\n\"provenance\": " + to_json(provenance);
     return text + "\n}\n";
 }
@@ -274,8 +275,13 @@ void write_planes_json(const std::filesystem::path& path, const std::vector<Plan
 }
 
 void write_contour_json(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance) {
+    write_corrections_json(path, set, {}, provenance);
+}
+
+void write_corrections_json(const std::filesystem::path& path, const ContourSet& set, const std::vector<Plane>& confirmed,
+                            const Provenance& provenance) {
     check_utf8(set.name, "the structure's name");
-    write_file_atomically(path, to_document(set, provenance));
+    write_file_atomically(path, to_document(set, provenance, confirmed));
 }
 
 }  // namespace kontur

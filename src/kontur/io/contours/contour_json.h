@@ -30,4 +30,8 @@ void write_planes_json(const std::filesystem::path& path, const std::vector<Plan
 /// coordinate that is NaN or infinite and a name that is no UTF-8.
 void write_contour_json(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
+/// The same with planes under "confirmed_planes".
+void write_corrections_json(const std::filesystem::path& path, const ContourSet& set, const std::vector<Plane>& confirmed,
+                            const Provenance& provenance = {});
+
 }  // namespace kontur

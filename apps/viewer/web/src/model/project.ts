@@ -133,6 +133,11 @@ export class Project extends Emitter<Topic> {
     return [...this.contours.values()].filter((contour) => contour.structure === structure);
   }
 
+  /** Whether there is anything of it: contours, or a mask. */
+  hasContent({ id, mask }: Structure): boolean {
+    return mask !== undefined || this.contoursOf(id).length > 0;
+  }
+
   /** The structure that new contours belong to; undefined when there is none. */
   get activeStructure(): Structure | undefined {
     return this.structures.get(this.active) ?? this.structures.values().next().value;

@@ -98,10 +98,11 @@ export class Http {
     return new BinaryReply(await this.timed(await this.request("slice", { method: "POST", body, signal: signal ?? null })));
   }
 
-  /** Where that is wanted with how sure it is at its points, and how far they are from the surface of another structure. */
-  async mesh(structure: number, extras: { widths?: boolean; farFrom?: number | undefined } = {}): Promise<BinaryReply<MeshHeader>> {
+  /** Where that is wanted with how sure it is at its points, who made it there, and how far they are from the surface of another structure. */
+  async mesh(structure: number, extras: { widths?: boolean; origins?: boolean; farFrom?: number | undefined } = {}): Promise<BinaryReply<MeshHeader>> {
     const query = new URLSearchParams({ coded: "1" });
     if (extras.widths) query.set("widths", "1");
+    if (extras.origins) query.set("origins", "1");
     if (extras.farFrom !== undefined) query.set("far_from", String(extras.farFrom));
     if (this.link.isSlow) query.set("compressed", "1");
     return new BinaryReply(await this.timed(await this.request(`mesh/${structure}?${query}`)));

@@ -23,7 +23,7 @@ export interface SnapshotServices {
 /** One picture of all views as they are seen, with whose image it is and what its structures are called. */
 export async function snapshot({ stage, redraw3D, cube, project, session }: SnapshotServices): Promise<Blob> {
   const area = stage.getBoundingClientRect();
-  const structures = [...project.structures.values()].filter(({ id, visible }) => visible && project.contoursOf(id).length > 0);
+  const structures = [...project.structures.values()].filter((one) => one.visible && project.hasContent(one));
   const lines = [identityLines(session).join("  ·  ")];
   const ratio = window.devicePixelRatio || 1;
   const canvas = document.createElement("canvas");

@@ -18,7 +18,7 @@ import { piece, render } from "../dom/pieces";
 import { PLANE_COLORS } from "../model/palette";
 import type { Editor } from "../tools/editor";
 import type { SinglePoint } from "../tools/single_points";
-import { BAND_STOPS, bandColors, bandScale, DISTANCE_STOPS, distanceColors } from "./band";
+import { BAND_STOPS, bandColors, bandScale, DISTANCE_STOPS, distanceColors, ORIGIN_COLORS, originColors } from "./band";
 import { OrientationCube, SIDES, type ViewAxes } from "./cube";
 import type { Scene, ScenePoint } from "./scene";
 import { SurfaceInput } from "./surface_input";
@@ -50,6 +50,7 @@ export class SurfaceView {
   private readonly shownRevisions = new Map<number, number>();
   private scene: Scene | null = null;
   private showsBand = false;
+  private showsOrigins = false;
   /** One structure coloured by how far it is from another one, in its state `revision`. */
   private compared: { structure: number; other: number; revision: number } | null = null;
   private readonly band = button({
@@ -58,6 +59,13 @@ export class SurfaceView {
     class: "icon-button small",
     test: "band",
     click: () => this.paintBy(!this.showsBand),
+  });
+  private readonly who = button({
+    icon: ICONS.who,
+    title: "Colour corrected masks by who made what: as it was, drawn, carried on, by the image",
+    class: "icon-button small",
+    test: "who",
+    click: () => this.paintBy(false, null, !this.showsOrigins),
   });
   private readonly ramp = el("span", { class: "band-ramp" });
   private readonly scale = el("div", { class: "band-scale", hidden: true, "data-test": "band-scale" });
@@ -87,9 +95,10 @@ export class SurfaceView {
       class: "icon-button small",
       click: () => void this.header.dispatchEvent(new MouseEvent("dblclick")),
     });
-    this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, this.band, glass, frame, another, enlarge);
+    this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, this.band, this.who, glass, frame, another, enlarge);
     this.band.setAttribute("aria-pressed", "false");
-    this.band.hidden = true;
+    this.band.hidden = this.who.hidden = true;
+    this.who.setAttribute("aria-pressed", "false");
     this.element = el(
       "section",
       { class: "pane surface", "data-view": "surface", "aria-label": "3D view" },
@@ -182,6 +191,7 @@ export class SurfaceView {
       if (surface.stage === "none" || this.shownRevisions.get(surface.structure) === surface.revision) continue;
       this.fetchesOf(surface.structure).send();
     }
+    this.who.hidden = ![...project.surfaces.values()].some(({ correction }) => correction);
     this.band.hidden = ![...project.surfaces.values()].some(({ uncertainty }) => uncertainty?.known);
     this.scene.setMarks(markedPlaces(project.surfaces.values()));
     this.restyle();
@@ -218,10 +228,10 @@ export class SurfaceView {
     if (!this.hasSurface(structure)) return; // it went while another mesh was on its way
     try {
       const farFrom = this.compared?.structure === structure ? this.compared.other : undefined;
-      const reply = await this.services.http.mesh(structure, { widths: this.showsBand, farFrom });
+      const reply = await this.services.http.mesh(structure, { widths: this.showsBand, origins: this.showsOrigins, farFrom });
       if (reply.header.stage === "none" || !this.hasSurface(structure)) return; // it went meanwhile
       const { header } = reply;
-      const colors = this.compared ? this.distanceColorsOf(reply) : this.bandColorsOf(reply);
+      const colors = this.compared ? this.distanceColorsOf(reply) : (this.originColorsOf(reply) ?? this.bandColorsOf(reply));
       this.scene?.setMesh(structure, {
         positions: positionsOf(header, reply.u8("positions")),
         normals: normalsOf(header, reply.u8("normals")),
@@ -242,6 +252,15 @@ export class SurfaceView {
     const most_mm = bandScale(half_widths_mm);
     this.showScale("90 % band: 0", BAND_STOPS, `± ${most_mm} mm`);
     return bandColors(half_widths_mm, most_mm);
+  }
+
+  /** Of who made what of a corrected mask, where that is wanted. */
+  private originColorsOf(reply: BinaryReply<MeshHeader>): Float32Array | undefined {
+    const origins = reply.u8("origins");
+    if (!this.showsOrigins || origins.length === 0) return undefined;
+    const steps = ORIGIN_COLORS.flatMap((color, n) => [`${color} ${(100 * n) / ORIGIN_COLORS.length}%`, `${color} ${(100 * (n + 1)) / ORIGIN_COLORS.length}%`]);
+    this.showScale("as it was", steps, "drawn, carried, image");
+    return originColors(origins);
   }
 
   /** Of how far the surface that is compared is from the other one; all others have their own colour. */
@@ -266,8 +285,10 @@ export class SurfaceView {
     this.paintBy(false, { structure, other, revision: 0 });
   }
 
-  private paintBy(band: boolean, compared: typeof this.compared = null): void {
+  private paintBy(band: boolean, compared: typeof this.compared = null, origins = false): void {
     this.showsBand = band;
+    this.showsOrigins = origins;
+    this.who.setAttribute("aria-pressed", String(origins));
     this.compared = compared;
     this.band.setAttribute("aria-pressed", String(band));
     this.scale.hidden = true;

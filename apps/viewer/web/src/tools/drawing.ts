@@ -26,6 +26,8 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   rubberLine: Vec3[] = [];
   /** Drawn by hand at this moment, or about to replace a stretch. */
   handLine: Vec3[] = [];
+  /** Those of its points that a hand has moved, where these are not all. */
+  movedPoints: readonly Vec3[] | null = null;
   pointerCloses = false;
   /** What Enter, a double click and a stroke by hand finish stays open, but for lines that come back to where they began. */
   endsOpen = false;
@@ -101,8 +103,9 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
     return true;
   }
 
-  showHand(line: Vec3[]): void {
+  showHand(line: Vec3[], moved: readonly Vec3[] | null = null): void {
     this.handLine = line;
+    this.movedPoints = moved;
     this.emit("sketch");
   }
 
@@ -136,8 +139,10 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
 
   /** All of it was drawn in one go. */
   private endStroke(screen: Screen, hand: readonly Vec3[]): void {
-    const structure = this.project.activeStructure?.id ?? 0;
-    if (this.endsOpen && !comesAround(screen, hand)) return this.send(Sketch.openFree(planeOf(screen), structure, hand));
+    const active = this.project.activeStructure;
+    const structure = active?.id ?? 0;
+    // A stroke across the outline of a mask replaces a piece of it.
+    if ((this.endsOpen || active?.mask) && !comesAround(screen, hand)) return this.send(Sketch.openFree(planeOf(screen), structure, hand));
     const drawn = Sketch.closedFree(planeOf(screen), structure, withoutOvershoot(screen, hand));
     return this.isSlip(screen, hand) ? this.dropSlip(drawn) : this.send(drawn);
   }

@@ -4,15 +4,20 @@ import type { ContourHit } from "./hit";
 import type { Place } from "./place";
 import { usualCursor, type Tool, type ToolContext } from "./tool";
 
-type Parts<Id extends string> = Pick<Tool<Id>, "id" | "key" | "label" | "title" | "icon" | "help"> & { stretch: StretchKind; hint: string; openHint: string };
+type Parts<Id extends string> = Pick<Tool<Id>, "id" | "key" | "label" | "title" | "icon" | "help"> & {
+  stretch: StretchKind;
+  hint: string;
+  openHint: string;
+  maskHint?: string;
+};
 
 /** A tool that draws new contours by clicks and by hand. */
-export function drawingTool<Id extends string>({ hint, openHint, stretch, ...parts }: Parts<Id>): Tool<Id> {
+export function drawingTool<Id extends string>({ hint, openHint, maskHint, stretch, ...parts }: Parts<Id>): Tool<Id> {
   return {
     ...parts,
     stretch,
     resumes: ({ kind, redraws }) => redraws === undefined && (kind === "free" ? "line" : kind) === stretch,
-    hint: ({ drawing }) => (drawing.endsOpen ? openHint : hint),
+    hint: ({ drawing, project }) => (project.activeStructure?.mask && maskHint) || (drawing.endsOpen ? openHint : hint),
     press: (context, place, modifiers) => {
       const hit = mendable(context, place);
       if (hit) return context.edits.press(place.screen, place.pointer, hit, modifiers);

@@ -15,6 +15,7 @@ import { OutlineEdits } from "./outline_edits";
 import type { ToolPainter } from "./painter";
 import type { Place } from "./place";
 import { PlaneLines } from "./plane_lines";
+import { PlanesOfMask } from "./planes_of_mask";
 import { Proposals } from "./proposals";
 import { Pushing } from "./pushing";
 import { TOOLS, toolNamed, type ToolName } from "./registry";
@@ -36,6 +37,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   readonly pushing: Pushing;
   readonly proposals: Proposals;
   readonly points: SinglePoints;
+  readonly planesOfMask: PlanesOfMask;
   readonly measuring = new Measuring();
 
   constructor(
@@ -50,6 +52,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     this.outlines = new OutlineEdits(navigation, project, this.drawing, drafts, services);
     this.pushing = new Pushing(project, this.drawing, { edits: this.edits, outlines: this.outlines, drafts }, services);
     this.points = new SinglePoints(project, this.edits, services);
+    this.planesOfMask = new PlanesOfMask(navigation, project, services);
     this.proposals = new Proposals(navigation, project, this.drawing, services);
     this.planeLines = new PlaneLines(navigation, project, services.screenOf);
     this.drawing.on(["resumed"], () => this.takeToolOfSketch());
@@ -133,7 +136,17 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
 
   /** Makes a contour of the outline of the slice under the pointer, or else of the one that the keyboard is in. */
   adoptOutline(focused: ViewName): void {
+    const view = this.pointer?.view ?? focused;
+    if (this.project.activeStructure?.mask) return this.planesOfMask.confirm(view);
     this.outlines.adopt(this.pointer?.view ?? focused, this.pointer?.at ?? null);
+  }
+
+  /** What is proposed is empty, or else the slice of a mask under the pointer. False where neither can be meant. */
+  nothingHere(focused: ViewName): boolean {
+    if (this.proposals.nothingHere()) return true;
+    if (!this.project.activeStructure?.mask) return false;
+    this.planesOfMask.empty(this.pointer?.view ?? focused);
+    return true;
   }
 
   /** Ends what is drawn as an open line, or else opens the selected contour, at the stretch under the pointer, or closes it if it is open. */

@@ -44,6 +44,13 @@ export function freeOutlines({ plane, outlines }: ShownOutlines, project: Projec
   });
 }
 
+/** A structure's closed outlines as the screen has them; none of a slice that was shown before. */
+export function linesOf({ plane, outlines }: ShownOutlines, structure: number, screen: Screen): Point2[][] {
+  if (Math.abs(heightOver(planeOf(screen), plane.origin)) > SAME_SLICE_MM) return [];
+  const own = [...outlines].filter((outline) => outline.structure === structure);
+  return own.flatMap((outline) => closedLines(outline, plane, screen).map(({ seen }) => [...seen]));
+}
+
 function closedLines({ structure, points, lines }: Outline, plane: PixelPlane, screen: Screen): FreeOutline[] {
   const world = lines
     .filter(({ closed, count }) => closed && count >= 3)

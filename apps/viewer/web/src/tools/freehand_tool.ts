@@ -10,5 +10,6 @@ export const freehandTool = drawingTool({
   help: { Draw: [["F", "freehand: drag around the structure"]] },
   stretch: "line",
   hint: "Drag around the structure; releasing closes the contour",
+  maskHint: "Drag across the mask's outline: the line replaces the shorter piece between its ends · back to where it began: the whole outline",
   openHint: "Drag along the border; releasing ends the open line · Shift + U draws closed contours again",
 });

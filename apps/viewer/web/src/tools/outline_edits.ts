@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import { pulled, pullReach } from "../geometry/loop";
 import { gap, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
-import { sub, type Vec3 } from "../geometry/vec";
+import { distance, sub, type Vec3 } from "../geometry/vec";
 import type { Origin, ViewName } from "../net/protocol";
 import { Edits } from "./edits";
 import { freeOutlines, nearestOutline, type FreeOutline } from "./free_outlines";
 import { DRAG_PIXELS, type Gesture } from "./gesture";
 import { LINE_PIXELS } from "./hit";
 import { Sketch } from "./sketch";
+
+const MOVED_MM = 0.05;
+
+/** To the nearest of some points. */
+const nearestGap = (points: readonly Vec3[], p: Vec3): number => points.reduce((least, q) => Math.min(least, distance(p, q)), Infinity);
 
 /** A computed outline that the pointer is on. */
 export interface OutlineHit {
@@ -42,7 +47,9 @@ export class OutlineEdits extends Edits {
     return {
       move: (at) => {
         isDrag ||= gap(at, pointer) > DRAG_PIXELS;
-        if (isDrag) this.draft(contourAt(at));
+        if (!isDrag) return;
+        const pulledLine = contourAt(at);
+        this.draft(pulledLine, (p) => nearestGap(points, p) > MOVED_MM);
       },
       end: (at) => {
         this.drafts.drop();
@@ -77,8 +84,9 @@ export class OutlineEdits extends Edits {
   }
 
   /** A contour that the hand still holds. */
-  draft(sketch: Sketch): void {
-    this.drawing.showHand(sketch.line());
+  draft(sketch: Sketch, isMoved?: (p: Vec3) => boolean): void {
+    const line = sketch.line();
+    this.drawing.showHand(line, isMoved ? line.filter(isMoved) : null);
     const { plane, structure, points, hole } = sketch;
     this.drafts.send({ name: "contour.add", args: { structure, plane, control: points, ...(hole && { hole }) } });
   }

@@ -19,6 +19,7 @@ export const pointTool: Tool<"point"> = {
   hint: ({ points, project }, hover) => {
     if (hover && "point" in hover) return "Drag the point to where the surface belongs, on this slice";
     const name = project.activeStructure?.name ?? "the structure";
+    if (project.activeStructure?.mask) return `Click where ${name} is wrong: inside of it, what does not belong, outside, what is missing`;
     return `Click where the surface of ${name} has to pass, here or on a surface in 3D` + (points.selected ? " · Del removes the selected point" : "");
   },
   press: ({ points }, place) => points.press(place),

@@ -74,6 +74,8 @@ export class Proposals extends Emitter<"proposal"> {
     const structure = project.activeStructure;
     if (drawing.sketch) return (services.tell("Close the contour that you are drawing first (Enter), or leave it (Esc)."), null);
     if (!structure || isHidden(structure.id, project, services)) return null;
+    if (structure.mask)
+      return (services.tell(`${structure.name} is a mask: look through its slices, and correct it where it is wrong. A says that one is right.`), null);
     if (!project.surfaces.get(structure.id)?.uncertainty)
       return (services.tell(`Nothing is suggested before the surface of ${structure.name} is finished.`), null);
     if (this.skipped.structure !== structure.id) this.skipped = { structure: structure.id, planes: [] };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { depthBelow, gap, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
+import { isInside } from "../geometry/loop";
 import { distance, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Project } from "../model/project";
 import type { PointKind, Structure } from "../net/protocol";
 import type { ContourEdits } from "./contour_edits";
+import { linesOf } from "./free_outlines";
 import { CLICK_PIXELS, DRAG_PIXELS, type Gesture } from "./gesture";
 import type { Place } from "./place";
 import type { EditorServices } from "./services";
@@ -104,7 +106,16 @@ export class SinglePoints extends Emitter<"points"> {
     if (grabbed) return this.grab(onSlice(place.screen), place.pointer, grabbed);
     const structure = this.project.activeStructure?.id;
     if (structure === undefined || !this.takesPoints(structure)) return null;
-    return this.gesture(onSlice(place.screen), place.pointer, { structure, kind: "surface", from: null }, 0, (at) => this.add(structure, at));
+    const kind = this.kindAt(place, structure);
+    return this.gesture(onSlice(place.screen), place.pointer, { structure, kind, from: null }, 0, (at) => this.add(structure, at, kind));
+  }
+
+  /** Of a mask a point says that it is wrong here: outside where the mask has it inside, and the other way round. */
+  private kindAt({ view, screen, pointer }: Place, structure: number): PointKind {
+    if (!this.project.structures.get(structure)?.mask) return "surface";
+    const shown = this.services.outlinesOf(view);
+    const lines = shown ? linesOf(shown, structure, screen) : [];
+    return lines.filter((line) => isInside(line, pointer)).length % 2 === 1 ? "exterior" : "interior";
   }
 
   /** `placeOf`: on a slice, or in space. */
@@ -120,6 +131,7 @@ export class SinglePoints extends Emitter<"points"> {
   clickSurface({ structure, at, reach_mm }: SurfacePlace): void {
     const there = this.shown().find((point) => point.structure === structure && distance(point.at, at) < reach_mm);
     if (there) this.select(there);
+    else if (this.project.structures.get(structure)?.mask) this.services.tell("Points of a mask lie inside or outside of it: click on a slice.");
     else if (this.takesPoints(structure)) this.add(structure, at);
   }
 
@@ -130,16 +142,16 @@ export class SinglePoints extends Emitter<"points"> {
     return selected !== null;
   }
 
-  private add(structure: number, at: Vec3): void {
-    const point: SinglePoint = { structure, kind: "surface", at };
+  private add(structure: number, at: Vec3, kind: PointKind = "surface"): void {
+    const point: SinglePoint = { structure, kind, at };
     this.select(point);
     this.hold({ ...point, from: null });
-    this.edits.make("point.add", { structure, at });
+    this.edits.make("point.add", { structure, at, kind });
   }
 
   private takesPoints(structure: number): boolean {
     if (isHidden(structure, this.project, this.services)) return false;
-    if (this.project.contoursOf(structure).length > 0) return true;
+    if (this.project.contoursOf(structure).length > 0 || this.project.structures.get(structure)?.mask) return true;
     this.services.tell(`${this.project.structures.get(structure)?.name} has no contour yet, and a point alone makes no surface.`);
     return false;
   }

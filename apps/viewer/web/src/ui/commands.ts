@@ -166,7 +166,7 @@ export const COMMANDS: readonly Command[] = [
   {
     keys: ["a"],
     edits: true,
-    help: ["Edit", "A", "make the computed outline under the pointer a contour, as it is"],
+    help: ["Edit", "A", "make the computed outline under the pointer a contour, as it is; of a mask: it is right in this slice"],
     run: ({ editor, focused }) => editor.adoptOutline(focused()),
   },
   {
@@ -178,8 +178,8 @@ export const COMMANDS: readonly Command[] = [
   {
     keys: ["e"],
     edits: true,
-    help: ["Draw", "E", "what is proposed is empty: nothing of the structure is in this plane"],
-    run: ({ editor, tell }) => void (editor.proposals.nothingHere() || tell(NOTHING_PROPOSED)),
+    help: ["Draw", "E", "what is proposed is empty: nothing of the structure is in this plane; of a mask: in this slice"],
+    run: ({ editor, focused, tell }) => void (editor.nothingHere(focused()) || tell(NOTHING_PROPOSED)),
   },
   { keys: ["h"], edits: true, help: ["Edit", "H", "hole on or off"], run: toggleHole },
   {

@@ -29,7 +29,7 @@ export function openImport(services: ImportServices, near: readonly NearDrawing[
     el(
       "p",
       {},
-      "Contours (kontur or 3D Slicer JSON, VTK's lines) become a new structure, each region of an RTSTRUCT one of its own. A mask (NIfTI, NRRD, MetaImage, FreeSurfer's MGH) and each segment of a DICOM SEG are traced into contours. You can also drop a file onto the page.",
+      "Contours (kontur or 3D Slicer JSON, VTK's lines) become a new structure. A mask (NIfTI, NRRD, MetaImage, FreeSurfer's MGH), a DICOM SEG and an RTSTRUCT come in to be corrected, or as contours. You can also drop a file onto the page.",
     ),
     input,
   );
@@ -44,8 +44,7 @@ export function openImport(services: ImportServices, near: readonly NearDrawing[
 /** What others have drawn on the image, by a file near it. */
 export function importNear({ file, name, modality }: NearDrawing, services: ImportServices): void {
   const ask: Ask = (options, signal) => services.http.importNear(file, options, signal);
-  if (modality === "SEG") openTracing(name, ask, services);
-  else void send(name, ask, {}, services);
+  openPurpose(name, ask, modality === "SEG", services);
 }
 
 export async function importFile(file: File, services: ImportServices): Promise<void> {
@@ -54,7 +53,8 @@ export async function importFile(file: File, services: ImportServices): Promise<
     (what: "contours" | "mask"): Ask =>
     (options, signal) =>
       services.http.import(what, file, options, signal);
-  if (kind === "mask" || (kind === "contours" && (await isSegmentation(file)))) openTracing(file.name, ask(kind), services);
+  if (kind === "mask") openPurpose(file.name, ask("mask"), true, services);
+  else if (kind === "contours" && file.name.toLowerCase().endsWith(".dcm")) openPurpose(file.name, ask("contours"), await isSegmentation(file), services);
   else if (kind === "contours") void send(file.name, ask("contours"), {}, services);
   else services.failed(new Error(`${file.name}: ${sentence(services.endings)}`));
 }
@@ -65,8 +65,32 @@ async function isSegmentation(file: File): Promise<boolean> {
   return SEGMENTATION_STORAGE.test(await file.slice(0, 4096).text());
 }
 
-/** Asks where voxels are to be cut into contours, and shows what these would keep of them. */
-function openTracing(name: string, ask: Ask, services: ImportServices): void {
+type Purpose = "correct" | "contours";
+
+/** Asks what becomes of what others segmented; and where voxels are to be cut into contours, with what these would keep of them. */
+function openPurpose(name: string, ask: Ask, hasVoxels: boolean, services: ImportServices): void {
+  let purpose: Purpose = "correct";
+  const choose = (chosen: Purpose) => () => {
+    purpose = chosen;
+    preview.forget();
+    tracing.hidden = purpose === "correct" || !hasVoxels;
+    go.textContent = GO[purpose];
+  };
+  const choice = (value: Purpose, label: string, title: string) =>
+    el(
+      "label",
+      { class: "purpose", title },
+      el("input", {
+        type: "radio",
+        name: "purpose",
+        value,
+        "data-test": `import-as-${value}`,
+        ...(value === purpose && { checked: "" }),
+        on: { change: choose(value) },
+      }),
+      label,
+    );
+  const GO = { correct: "Import to be corrected", contours: hasVoxels ? "Trace into contours" : "Import the contours" };
   const axes = el(
     "select",
     { title: "Directions of the planes", "data-test": "mask-axes", on: { change: () => preview.forget() } },
@@ -74,9 +98,9 @@ function openTracing(name: string, ask: Ask, services: ImportServices): void {
     el("option", { value: "axial" }, "axial only"),
   );
   const confirm = () => {
-    if (!planes.reportValidity()) return;
+    if (purpose === "contours" && !planes.reportValidity()) return;
     dialog.close();
-    void send(name, ask, wanted(), services);
+    void send(name, ask, purpose === "correct" ? { as: "correct" } : hasVoxels ? wanted() : {}, services);
   };
   const wanted = () => ({ axes: axes.value, planes: planes.value });
   const preview = new TracingPreview((signal) => ask({ ...wanted(), preview: "1" }, signal));
@@ -95,32 +119,39 @@ function openTracing(name: string, ask: Ask, services: ImportServices): void {
     on: { keydown: onEnter, input: () => preview.forget() },
   });
   const go = button({
-    label: "Trace into contours",
+    label: GO.correct,
     title: "Import it",
     class: "primary",
     test: "import-mask",
     click: confirm,
   });
-  const dialog = openDialog(
-    `Import ${name}`,
-    "mask-dialog",
-    el("p", {}, "Each label or segment becomes a structure, drawn by contours on planes through it."),
+  const tracing = el(
+    "div",
+    { hidden: true },
     el("label", { class: "field" }, "Planes", axes),
     el("label", { class: "field" }, "Planes along each axis", planes),
     preview.element,
-    el(
-      "div",
-      { class: "dialog-buttons" },
-      button({
-        label: "Preview",
-        title: "Say what these planes keep of the voxels; nothing is imported",
-        class: "choice",
-        test: "import-preview",
-        click: () => void (planes.reportValidity() && preview.show()),
-      }),
-      go,
-    ),
+    button({
+      label: "Preview",
+      title: "Say what these planes keep of the voxels; nothing is imported",
+      class: "choice",
+      test: "import-preview",
+      click: () => void (planes.reportValidity() && preview.show()),
+    }),
   );
+  const dialog = openDialog(
+    `Import ${name}`,
+    "mask-dialog",
+    choice("correct", "To be corrected", "It stays as it is, voxel by voxel, but for where you draw, and near that"),
+    choice(
+      "contours",
+      "As contours",
+      hasVoxels ? "Each label or segment is drawn by contours on planes through it" : "Each region becomes a structure with its contours",
+    ),
+    tracing,
+    el("div", { class: "dialog-buttons" }, go),
+  );
+  go.focus();
   dialog.addEventListener("close", () => preview.forget());
 }
 

@@ -50,7 +50,7 @@ export class LabelTable {
 
   private get rows(): [Structure, number][] {
     const { project } = this.services;
-    const drawn = [...project.structures.values()].filter(({ id }) => project.contoursOf(id).length > 0);
+    const drawn = [...project.structures.values()].filter((one) => project.hasContent(one));
     const values = labelValues(drawn);
     return drawn.map((structure, n) => [structure, values[n]!]);
   }

@@ -21,7 +21,7 @@ export class NearDrawings {
   private isDeclined = false;
 
   constructor(private readonly services: NearServices) {
-    services.project.on(["contours"], () => this.update());
+    services.project.on(["contours", "structures"], () => this.update());
   }
 
   start({ has_dicom, read_only }: Pick<Session, "has_dicom" | "read_only">): void {
@@ -39,7 +39,7 @@ export class NearDrawings {
 
   private update(): void {
     const { project } = this.services;
-    this.element.hidden = this.found.length === 0 || this.isDeclined || project.contours.size > 0;
+    this.element.hidden = this.found.length === 0 || this.isDeclined || [...project.structures.values()].some((one) => project.hasContent(one));
     if (this.element.hidden) return render(this.element, []);
     const decline = buttonPiece({
       icon: ICONS.close,

@@ -91,7 +91,7 @@ export class Panel {
     const isProposed = structure !== undefined && proposals.shown?.structure === structure.id;
     const otherProposal = isProposed && proposals.shown?.others?.length ? () => void (this.services.editor.isAnotherTime() || proposals.other()) : null;
     const actions = { nothingHere, otherProposal, show: (contour: Contour) => this.show(contour) };
-    render(this.quality, qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, ...actions }));
+    render(this.quality, qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, ...actions }, structure));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["image"] = surface?.image?.verdict ?? "none";

@@ -5,9 +5,10 @@ import { lengthText } from "../model/lengths";
 import { volumeText } from "../model/volumes";
 import type { Navigation } from "../model/navigation";
 import type { Maker } from "../net/calls";
-import type { Conflict, Contour, NearLines, Surface } from "../net/protocol";
+import type { Conflict, Contour, NearLines, Structure, Surface } from "../net/protocol";
 import { distinct, settled } from "../tools/settling";
 import { contourName } from "./contour_names";
+import { correctionEntries } from "./corrections";
 import { faultEntries } from "./faults";
 import { buttonPiece } from "../dom/dom";
 import { ICONS } from "../dom/icons";
@@ -32,7 +33,8 @@ export interface QualityServices {
 }
 
 /** How well the surface fits its contours: figures, and places to go to where it does not. */
-export function qualityOf(surface: Surface | undefined, contours: Contour[], services: QualityServices): Piece[] {
+export function qualityOf(surface: Surface | undefined, contours: Contour[], services: QualityServices, structure?: Structure): Piece[] {
+  if (structure?.mask && surface) return ofMask(surface, structure, contours, services);
   return [...figures(surface, contours, services), ...selfCrossings(contours, services)];
 }
 
@@ -91,6 +93,14 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
     );
   }
   return entries;
+}
+
+/** Of a mask to be corrected: lines are followed exactly, and what changed counts. */
+function ofMask(surface: Surface, structure: Structure, contours: Contour[], services: QualityServices): Piece[] {
+  const volume = surface.volume_ml === undefined ? [] : [figure("Volume", volumeText(surface.volume_ml))];
+  const asking = surface.stage === "asking" ? [piece("p", { class: "image-sentence" }, "The image is being asked …")] : [];
+  const corrected = surface.correction ? correctionEntries(surface.correction, structure, services) : [];
+  return [...volume, ...troubles(surface, contours, services), ...corrected, ...asking, ...selfCrossings(contours, services)];
 }
 
 function troubles(

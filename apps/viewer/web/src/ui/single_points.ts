@@ -40,7 +40,7 @@ export function singlePointRows(structure: Structure, { call, points, goTo }: Ro
         value: kind,
         on: { change: ({ currentTarget }) => call("point.set", { structure: structure.id, at, kind: currentTarget.value as PointKind }) },
       },
-      ...POINT_KINDS.map((one) => piece("option", { value: one }, LABELS[one])),
+      ...POINT_KINDS.filter((one) => one !== "surface" || !structure.mask).map((one) => piece("option", { value: one }, LABELS[one])),
     );
     const remove = buttonPiece({
       icon: ICONS.remove,

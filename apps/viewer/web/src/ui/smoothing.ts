@@ -65,7 +65,7 @@ export class SmoothingSlider {
   private update(): void {
     const { project } = this.services;
     const structure = project.activeStructure;
-    this.element.hidden = !structure || project.contoursOf(structure.id).length === 0;
+    this.element.hidden = !structure || structure.mask !== undefined || project.contoursOf(structure.id).length === 0;
     if (!structure || this.input.matches(":active")) return; // a hand is at it
     const step = stepOf(structure.smoothing);
     const isOnItsWay = this.sent?.structure === structure.id && this.sent.step !== step && document.activeElement === this.input;

@@ -5,6 +5,7 @@ import type { Contour, Structure } from "../net/protocol";
 import { contourName } from "./contour_names";
 import { ContourRows, type RowServices } from "./contour_rows";
 import { buttonPiece, el, eye } from "../dom/dom";
+import { confirmedPlaneRows } from "./corrections";
 import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "../dom/icons";
 import { piece, render, type Piece } from "../dom/pieces";
@@ -53,7 +54,8 @@ export class StructureList {
   }
 
   private nothing(entries: number): Piece[] {
-    if (this.services.project.contours.size === 0)
+    const { project } = this.services;
+    if (![...project.structures.values()].some((one) => project.hasContent(one)))
       return [piece("p", { class: "empty" }, "No contours yet. Choose Live-wire or Freehand and draw around the structure in any slice.")];
     return entries === 0 ? [piece("p", { class: "empty" }, "No structure and no contour is called so.")] : [];
   }
@@ -162,6 +164,7 @@ export class StructureList {
     return [
       ...this.rows.rowsOf(structure, this.contoursOf(structure)),
       ...emptyPlaneRows(structure, this.services),
+      ...confirmedPlaneRows(structure, this.services),
       ...singlePointRows(structure, this.services),
     ];
   }
@@ -253,6 +256,7 @@ export class StructureList {
       this.refresh();
     };
     return [
+      ...(structure.mask ? [piece("span", { class: "flag", "data-test": "is-mask", title: "A mask: what is drawn into it corrects it" }, "mask")] : []),
       buttonPiece({
         label: String(project.contoursOf(id).length),
         title: isOpen ? "Hide the list of contours" : "List the contours",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { leftOnScreen, sliceOnScreen, toScreen, type Point2, type Screen } from "../geometry/screen";
+import { depthBelow, leftOnScreen, sliceOnScreen, toScreen, type Point2, type Screen } from "../geometry/screen";
 import { scaleBar } from "../geometry/scale_bar";
 import { alongLine } from "../geometry/loop";
 import type { PixelPlane } from "../geometry/plane";
@@ -18,6 +18,7 @@ const MEASURED = "#f0e442";
 
 const USUAL_FONT_PIXELS = 13;
 
+const ZONE_ALPHA = 0.16;
 const TICK_PIXELS = 7;
 const TICK_STEP_PIXELS = 18;
 
@@ -192,6 +193,21 @@ export class OverlayPainter implements ToolPainter {
       path.arc(at[0], at[1], radius, 0, 2 * Math.PI);
       this.stroke(path, color, width);
     }
+  }
+
+  /** How far corrections at these points are carried on, where that meets the slice. */
+  zone(points: readonly Vec3[], reach_mm: number, color: string): void {
+    const path = new Path2D();
+    for (const p of points) {
+      const depth = depthBelow(this.screen, p);
+      if (Math.abs(depth) >= reach_mm) continue;
+      const [x, y] = toScreen(this.screen, p);
+      const radius = Math.sqrt(reach_mm * reach_mm - depth * depth) / this.screen.mm_per_pixel;
+      path.moveTo(x + radius, y);
+      path.arc(x, y, radius, 0, 2 * Math.PI);
+    }
+    this.ctx.fillStyle = withAlpha(color, ZONE_ALPHA);
+    this.ctx.fill(path, "nonzero");
   }
 
   hand(points: readonly Vec3[], color: string): void {

@@ -28,6 +28,14 @@ export interface SliceVectorsServices {
   appearance: SavedAppearance;
 }
 
+const MOST_ZONE_POINTS = 60;
+
+/** So many of them that circles around them make one shape. */
+function thinned(points: readonly Vec3[]): readonly Vec3[] {
+  const step = Math.ceil(points.length / MOST_ZONE_POINTS);
+  return points.filter((_, n) => n % step === 0);
+}
+
 /** Which lines and marks are seen over a view's slice. */
 export class SliceVectors {
   constructor(
@@ -44,6 +52,7 @@ export class SliceVectors {
   private paintDrawn(painter: OverlayPainter, screen: Screen, slice: ShownSlice | null): void {
     if (slice && areParallel(slice.plane, screen.axes)) this.paintSurfaces(painter, screen, slice);
     this.paintLines(painter, screen);
+    this.paintZone(painter);
     this.paintContours(painter, screen);
     this.paintPoints(painter, screen);
     this.paintRings(painter, screen);
@@ -58,6 +67,17 @@ export class SliceVectors {
     const shown = [...outlines.values()].filter(({ structure }) => project.structures.get(structure)?.visible);
     painter.outlines(shown, plane, (id) => project.structures.get(id)?.color ?? "#888888");
     painter.crossings(header, crossingPoints, plane, (id) => this.crossingColor(id, screen));
+  }
+
+  /** Of a mask while the hand corrects it: what will change, if anything does. */
+  private paintZone(painter: OverlayPainter): void {
+    const { project, editor } = this.services;
+    const { handLine, movedPoints } = editor.drawing;
+    const draft = project.draft;
+    const active = draft ? project.structures.get(draft.structure) : project.activeStructure;
+    const correction = active?.mask && project.surfaces.get(active.id)?.correction;
+    const points = handLine.length > 0 ? (movedPoints ?? handLine) : (draft?.points ?? []);
+    if (active && correction && points.length > 0) painter.zone(thinned(points), correction.reach_mm, active.color);
   }
 
   private paintRings(painter: OverlayPainter, screen: Screen): void {

@@ -467,6 +467,7 @@ describe("files", () => {
     const mask = join(visits.folder.path, "ball mask.nii.gz");
     writeFileSync(mask, (await viewer.export("mask.nii.gz")).bytes);
     await viewer.import(mask);
+    await viewer.page.check("[data-test=import-as-contours]");
     await viewer.page.click("[data-test=import-mask]");
     await viewer.page.waitForFunction(() => document.querySelectorAll(".structure").length === 2);
     await viewer.page.waitForFunction(() => document.querySelectorAll(".contour-row").length > 15);

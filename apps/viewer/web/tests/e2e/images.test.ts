@@ -88,6 +88,7 @@ describe("kontur open", () => {
       const seg = join(folder.path, "again.dcm");
       writeFileSync(seg, (await viewer.export("seg.dcm")).bytes);
       await viewer.import(seg);
+      await page.check("[data-test=import-as-contours]");
       await page.click("[data-test=import-mask]"); // on the planes that are proposed
       await page.locator(".structure-row").nth(1).waitFor();
       assert.deepEqual(await page.locator(".structure-row button.name").allTextContents(), ["Drawn", "Drawn"]);

@@ -59,6 +59,7 @@ describe("a label map", () => {
     const { page } = viewer;
     await viewer.import(file());
     const preview = page.locator("[data-test=tracing-preview]");
+    await page.check("[data-test=import-as-contours]");
     await page.click("[data-test=import-preview]");
     await preview.locator("p", { hasText: "Label 26: " }).waitFor();
     await preview.locator("p", { hasText: "Label 33: " }).waitFor();

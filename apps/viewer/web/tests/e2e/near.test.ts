@@ -54,7 +54,7 @@ async function visit(words: string[], act: (viewer: Viewer) => Promise<void>): P
 const names = (viewer: Viewer) => viewer.page.locator(".structure-row button.name").allTextContents();
 
 describe("a structure set near the image", { skip }, () => {
-  test("is offered with the names of its structures, and one click brings them in, in place of the empty one", async () => {
+  test("is offered with the names of its structures, and comes in in place of the empty one", async () => {
     await visit([series], async (viewer) => {
       const { page } = viewer;
       const offer = page.locator("[data-test=near-drawings]");
@@ -62,6 +62,8 @@ describe("a structure set near the image", { skip }, () => {
       const text = await offer.innerText();
       for (const words of ["RS.dcm", "Structure set", "Lymph node"]) assert.ok(text.includes(words), text);
       await page.click("[data-test=near-import]");
+      await page.check("[data-test=import-as-contours]");
+      await page.click("[data-test=import-mask]");
       await viewer.waitForContours(1);
       assert.deepEqual(await names(viewer), ["Lymph node"]);
       await offer.waitFor({ state: "hidden" });
@@ -74,6 +76,8 @@ describe("a structure set near the image", { skip }, () => {
       await offer.waitFor({ state: "hidden" });
       await page.click("[data-test=import]");
       await page.click("[data-test=import-dialog] [data-test=near-import]");
+      await page.check("[data-test=import-as-contours]");
+      await page.click("[data-test=import-mask]");
       await viewer.waitForContours(1);
     });
   });
@@ -90,14 +94,16 @@ describe("a structure set near the image", { skip }, () => {
       const { page } = viewer;
       await viewer.closeHint();
       const trace = async (planes: string) => {
+        await page.check("[data-test=import-as-contours]");
         await page.locator("[data-test=mask-dialog]").getByLabel("Planes along each axis").fill(planes);
         await page.click("[data-test=import-mask]");
       };
       await page.locator("[data-test=near-drawing]", { hasText: "Segments.dcm" }).locator("[data-test=near-import]").click();
+      await page.check("[data-test=import-as-contours]");
       await page.locator("[data-test=mask-dialog] select").selectOption("axial");
       await trace("0"); // which the dialog refuses by itself
       await page.locator("[data-test=mask-dialog] input:invalid").waitFor();
-      await page.locator("[data-test=mask-dialog] input").fill("1");
+      await page.locator("[data-test=mask-dialog] input[type=number]").fill("1");
       await page.keyboard.press("Enter");
       await viewer.waitForContours(1);
       await page.click("[data-test=import]");

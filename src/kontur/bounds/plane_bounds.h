@@ -11,8 +11,9 @@ namespace kontur {
 /// lie outside. That is the distance to the plane's lines, to where lines of other planes cross it outside of them (it may
 /// be incomplete there), and to what other planes show of the object; beyond a parallel plane that shows it, the object may
 /// go on as far as to this one (end_bounds.h). Where other planes show the object on both sides, nearer than the lines are,
-/// the plane shows only a part of it, and the bound fades out. The places are those of plane_lattice.h, and finer
-/// ones around the lines.
+/// the plane shows only a part of it, and the bound fades out. Parallel planes have to be twice as near for that, and a
+/// plane that shows a gap at the place does not count. The places are those of plane_lattice.h, finer ones around the lines,
+/// and those of the parallel planes beside.
 std::vector<Bound> plane_bounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, std::size_t region);
 
 }  // namespace kontur

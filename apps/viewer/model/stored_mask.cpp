@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "kontur/base/error.h"
+#include "kontur/shape/inside_box.h"
 #include "kontur/shape/sha256.h"
 #include "viewer/model/model_json.h"
 
@@ -23,18 +24,7 @@ constexpr int kCompression = 6;
 [[noreturn]] void refuse(const std::string& why) { throw Error(ErrorKind::invalid_input, "a stored mask " + why); }
 
 IndexBox box_of(const Mask& mask) {
-    const Index3& size = mask.grid.size;
-    std::optional<IndexBox> box;
-    for (std::int64_t k = 0; k < size.k; ++k)
-        for (std::int64_t j = 0; j < size.j; ++j) {
-            const auto* row = mask.values.data() + mask.grid.offset(0, j, k);
-            const auto* end = row + size.i;
-            const auto* begin = std::find_if(row, end, [](std::uint8_t v) { return v != 0; });
-            if (begin == end) continue;
-            while (*(end - 1) == 0) --end;
-            const IndexBox run{{begin - row, j, k}, {end - 1 - row, j, k}};
-            box = box ? box_around(*box, run) : run;
-        }
+    const auto box = inside_box<std::uint8_t>(mask.grid.size, mask.values, [](std::uint8_t v) { return v != 0; });
     if (!box) throw Error(ErrorKind::invalid_input, "the mask has no voxel inside, so there is nothing to correct");
     return *box;
 }

@@ -177,14 +177,37 @@ TEST(CorrectMask, AStrokeMayTakeAway) {
     EXPECT_LT(corrected.report.volume_ml, corrected.report.volume_before_ml);
 }
 
+TEST(CorrectMask, AStrokeInAnotherPlaneDoesNotBringBackWhatOneTookAway) {
+    const auto is_leak = [](const Vec3& p) { return p.x > 20 && p.x < 60 && std::abs(p.y) < 8 && std::abs(p.z) < 8; };
+    const Grid grid = grid_of({2, 2, 2}, 70);
+    const Mask mask = test::mask_of(grid, [&](const Vec3& p) { return is_leak(p) || (norm(p) < 36 && p.z < 24); });
+    const auto leaking = [&](const Mask& one) {
+        std::int64_t count = 0;
+        std::size_t n = 0;
+        for (std::int64_t k = 0; k < grid.size.k; ++k)
+            for (std::int64_t j = 0; j < grid.size.j; ++j)
+                for (std::int64_t i = 0; i < grid.size.i; ++i)
+                    count += one.values[n++] && norm(grid.center_mm(i, j, k)) > 40 && grid.center_mm(i, j, k).x > 0;
+        return count;
+    };
+    const double radius = std::sqrt(36 * 36 - 1), angle = 0.5;
+    const Contour taken = circle({{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, radius, -angle, angle, 40);
+    const Plane coronal{{0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
+    const Contour added = circle(coronal, radius, 1.17 * std::numbers::pi, 1.83 * std::numbers::pi, 60);
+    const std::int64_t whole = leaking(mask), first = leaking(correct(mask, drawn({taken})).mask);
+    const CorrectedMask both = correct(mask, drawn({taken, added}));
+    EXPECT_LT(first, whole / 10);
+    EXPECT_LE(leaking(both.mask), first);
+    EXPECT_GT(both.report.added_carried, 0);
+}
+
 TEST(CorrectMask, AnEmptyPlaneTakesTheObjectAwayThere) {
     const Mask mask = test::mask_of(grid_of({1, 1, 1}, 25), ball({}, 15));
     Corrections corrections;
     corrections.drawing.empty_planes = {make_plane({0, 0, 12}, {0, 0, 1})};
     const CorrectedMask corrected = correct(mask, corrections);
     for (std::int64_t j = 0; j < mask.grid.size.j; ++j)
-        for (std::int64_t i = 0; i < mask.grid.size.i; ++i)
-            EXPECT_FALSE(corrected.mask.values[mask.grid.offset(i, j, 37)]);
+        for (std::int64_t i = 0; i < mask.grid.size.i; ++i) EXPECT_FALSE(corrected.mask.values[mask.grid.offset(i, j, 37)]);
     EXPECT_GT(corrected.report.volume_ml, 0.7 * corrected.report.volume_before_ml);
 }
 
@@ -221,7 +244,8 @@ TEST(CorrectMask, ASliceBeyondTheEndAddsNoOtherBehindIt) {
 TEST(CorrectMask, ALoosePieceIsNamedAndDroppedWhereAsked) {
     // Two balls on a rod; the rod is cut.
     const Mask mask = test::mask_of(grid_of({1, 1, 1}, 25), [](const Vec3& p) {
-        return distance(p, {-12, 0, 0}) < 9 || distance(p, {14, 0, 0}) < 6 || (std::hypot(p.y, p.z) < 2 && std::abs(p.x) < 14);
+        return distance(p, {-12, 0, 0}) < 9 || distance(p, {14, 0, 0}) < 6 ||
+               (std::hypot(p.y, p.z) < 2 && std::abs(p.x) < 14);
     });
     Corrections corrections;
     corrections.drawing.empty_planes = {make_plane({3, 0, 0}, {1, 0, 0})};
@@ -265,8 +289,8 @@ TEST(CorrectMask, OriginSaysWhatBecameOfEachVoxel) {
         const auto made = static_cast<CorrectedVoxel>(corrected.origin[n]);
         const bool was = made == CorrectedVoxel::inside || made == CorrectedVoxel::removed_drawn ||
                          made == CorrectedVoxel::removed_carried;
-        const bool is = made == CorrectedVoxel::inside || made == CorrectedVoxel::added_drawn ||
-                        made == CorrectedVoxel::added_carried;
+        const bool is =
+            made == CorrectedVoxel::inside || made == CorrectedVoxel::added_drawn || made == CorrectedVoxel::added_carried;
         EXPECT_EQ(was, dented.mask.values[n] != 0);
         EXPECT_EQ(is, corrected.mask.values[n] != 0);
     }
@@ -274,7 +298,8 @@ TEST(CorrectMask, OriginSaysWhatBecameOfEachVoxel) {
 
 TEST(CorrectMask, ContradictionsAreNamed) {
     const Dented dented;
-    const auto report = correct(dented.mask, drawn({circle(kAxial, 15), circle(make_plane({0, 0, 0}, {0, 1, 0}), 11)})).report;
+    const auto report =
+        correct(dented.mask, drawn({circle(kAxial, 15), circle(make_plane({0, 0, 0}, {0, 1, 0}), 11)})).report;
     ASSERT_FALSE(report.warnings.empty());
     EXPECT_NE(report.warnings[0].find("both yield"), std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kontur/base/point_tree.h"
+#include "kontur/base/smooth_step.h"
 #include "kontur/shape/crossings.h"
 
 namespace kontur {
@@ -14,13 +15,17 @@ namespace {
 
 // Ratios to lengths of the mask. Behind some: mean Dice of 13 masks after three axial planes (bench/correct.py) by other
 // values, where these make .9401.
-constexpr double kSpacingOfLength = 0.4, kSpacingOfRadius = 1.0 / 15;  ///< the lesser, two voxels at least. x .7 .9381, x 1.5 .9406
-constexpr double kLineNoise = 0.02;                                    ///< of the step
-constexpr double kSlope = 0.9;       ///< of the distance from a moved line: what f is beside it. Nothing there .9388
-constexpr double kSlopeNoise = 0.3;  ///< of that distance
-constexpr double kLeast = 0.7;       ///< of the distance from the outline: what f is at least
+constexpr double kSpacingOfLength = 0.4,
+                 kSpacingOfRadius = 1.0 / 15;  ///< the lesser, two voxels at least. x .7 .9381, x 1.5 .9406
+constexpr double kLineNoise = 0.02;            ///< of the step
+constexpr double kSlope = 0.9;        ///< of the distance from a moved line: what f is beside it. Nothing there .9388
+constexpr double kSlopeNoise = 0.3;   ///< of that distance
+constexpr double kLeast = 0.7;        ///< of the distance from the outline: what f is at least
 constexpr double kDepthVoxels = 0.5;  ///< tau, of the largest voxel side. .35 .9365, .8 .9392
-
+// Lengths l from what another plane moved: nothing of a kept outline counts, and all of it. From .5 to 1 a leak that a
+// stroke took away comes back by half; a stroke is seldom drawn to say what is right beside it.
+constexpr double kYielding = 1, kKept = 2;
+constexpr double kLeastKept = 0.01;  ///< of its weight
 
 /// A section and searches in it.
 struct SearchedSection {
@@ -72,7 +77,31 @@ public:
         for (const DrawnLine& line : searched.section.lines) add_line(searched, number, line);
     }
 
-    /// After all lines.
+    /// After all lines. Where only a piece of a plane's outline was replaced, the rest was right as it was seen. Near what
+    /// other planes moved that is not how the mask has it, so the mask's outline yields there.
+    void yield_to_others(const std::vector<SearchedSection>& searched) {
+        std::vector<std::vector<Vec3>> moved(searched.size());
+        const auto add_moved = [&](const Vec3& place, std::size_t by) {
+            for (std::size_t n = 0; n < searched.size(); ++n)
+                if (n != by && !searched[n].section.redrawn) moved[n].push_back(place);
+        };
+        for (const CorrectionDatum& datum : found.data)
+            if (is_moved(datum)) add_moved(datum.position, datum.section);
+        for (std::size_t n = 0; n < searched.size(); ++n)
+            for_each_place(searched[n].section, lengths_.spacing, [&](const Point2& p) {
+                if (searched[n].is_changed(p)) add_moved(searched[n].section.plane.from_uv(p), n);
+            });
+        for (std::vector<Vec3>& places : moved) moved_by_others_.emplace_back(std::move(places));
+        std::erase_if(found.data, [&](CorrectionDatum& datum) {
+            if (searched[datum.section].section.redrawn || is_moved(datum)) return false;
+            const double far =
+                smooth_step(kYielding, kKept, moved_by_others_[datum.section].distance_to(datum.position) / lengths_.length);
+            datum.noise_mm /= std::max(far, kLeastKept);
+            return far < kLeastKept;
+        });
+    }
+
+    /// After yield_to_others.
     void add_bounds(const std::vector<SearchedSection>& searched, std::size_t number) {
         if (!near_) find_moved(searched);
         add_plane_bounds(searched[number], number);
@@ -117,6 +146,10 @@ private:
         }
     }
 
+    bool is_moved(const CorrectionDatum& datum) const {
+        return std::abs(datum.value_mm - surface_.value(datum.position)) > kStillVoxels * lengths_.step;
+    }
+
     /// Where and how far lines move, once all are there.
     void find_moved(const std::vector<SearchedSection>& searched) {
         std::vector<Vec3> moved;
@@ -142,7 +175,20 @@ private:
     }
 
     void add_plane_bounds(const SearchedSection& searched, std::size_t number) {
-        const CorrectedSection& section = searched.section;
+        const double h = lengths_.step;
+        for_each_place(searched.section, h, [&](const Point2& p) {
+            const Vec3 at = searched.section.plane.from_uv(p);
+            if (near_->distance_to(at) > kReachLengths * lengths_.length) return;
+            const bool changed = searched.is_changed(p);
+            if (!changed && std::abs(surface_.value(at)) > largest_change_ + 2 * h) return;
+            if (!changed && moved_by_others_[number].distance_to(at) < kYielding * lengths_.length) return;
+            add_bound(searched, number, p);
+        });
+    }
+
+    /// Calls visit(p) on a lattice over the outlines before and after, and two steps around them.
+    template <class Visit>
+    static void for_each_place(const CorrectedSection& section, double step, const Visit& visit) {
         Point2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         Point2 high{-low[0], -low[1]};
         for (const Section* s : {&section.before, &section.after})
@@ -153,18 +199,11 @@ private:
                         high[axis] = std::max(high[axis], p[axis]);
                     }
         if (!(low[0] <= high[0])) return;
-        const double h = lengths_.step;
-        const auto from = [&](double x) { return static_cast<std::int64_t>(std::floor(x / h)) - 2; };
-        const auto to = [&](double x) { return static_cast<std::int64_t>(std::ceil(x / h)) + 2; };
+        const auto from = [&](double x) { return static_cast<std::int64_t>(std::floor(x / step)) - 2; };
+        const auto to = [&](double x) { return static_cast<std::int64_t>(std::ceil(x / step)) + 2; };
         for (std::int64_t j = from(low[1]); j <= to(high[1]); ++j)
-            for (std::int64_t i = from(low[0]); i <= to(high[0]); ++i) {
-                const Point2 p{static_cast<double>(i) * h, static_cast<double>(j) * h};
-                const Vec3 at = section.plane.from_uv(p);
-                if (near_->distance_to(at) > kReachLengths * lengths_.length) continue;
-                const bool changed = searched.is_changed(p);
-                if (!changed && std::abs(surface_.value(at)) > largest_change_ + 2 * h) continue;
-                add_bound(searched, number, p);
-            }
+            for (std::int64_t i = from(low[0]); i <= to(high[0]); ++i)
+                visit(Point2{static_cast<double>(i) * step, static_cast<double>(j) * step});
     }
 
     static bool mask_shows_nothing(const CorrectedSection& section) {
@@ -210,7 +249,8 @@ private:
 
     const ExistingSurface& surface_;
     const CorrectionLengths& lengths_;
-    std::optional<PointTree> near_;  ///< of what moves
+    std::optional<PointTree> near_;           ///< of what moves
+    std::vector<PointTree> moved_by_others_;  ///< of each plane in which only a piece was replaced
     double largest_change_ = 0;
 };
 
@@ -220,8 +260,8 @@ void relax_contradictions(const ContourSet& drawing, double step_mm, CorrectionD
         if (!crossing.matched || crossing.disagreement_mm <= step_mm) continue;
         data.contradictions.push_back(sentence(crossing) + "; both yield there");
         for (CorrectionDatum& datum : data.data) {
-            const double apart = std::min(distance(datum.position, crossing.position),
-                                          distance(datum.position, crossing.other_position));
+            const double apart =
+                std::min(distance(datum.position, crossing.position), distance(datum.position, crossing.other_position));
             if (apart < 2 * crossing.disagreement_mm)
                 datum.noise_mm = std::max(datum.noise_mm, 0.5 * crossing.disagreement_mm);
         }
@@ -248,6 +288,7 @@ CorrectionData correction_data(const ExistingSurface& surface, const std::vector
     for (const CorrectedSection& section : sections) searched.emplace_back(section);
     Collector collector(surface, lengths);
     for (std::size_t n = 0; n < searched.size(); ++n) collector.add_lines(searched[n], n);
+    collector.yield_to_others(searched);
     for (std::size_t n = 0; n < searched.size(); ++n) collector.add_bounds(searched, n);
     collector.add_points(drawing.interior, 1, sections.size());
     collector.add_points(drawing.exterior, -1, sections.size());

@@ -219,16 +219,15 @@ TEST_F(WriteDicomSeg, RefusesWhatDoesNotFit) {
         std::count_if(values.end() - grid_.size.i * grid_.size.j, values.end(), [](auto v) { return v != 0; });
     labels.grid.index_to_mm.translation = grid_.center_mm(0, 0, 1);
     EXPECT_KONTUR_ERROR(write_dicom_seg(path(), {labels, three_segments()}, series_), ErrorKind::invalid_input,
-                        std::to_string(of_last_slice) + " of the mask's ");
+                        std::to_string(of_last_slice) + " of its ");
     labels.grid.index_to_mm.translation = first_slice;
     labels.grid.index_to_mm.translation.x += 0.35;
     EXPECT_KONTUR_ERROR(write_dicom_seg(path(), {labels, three_segments()}, series_), ErrorKind::invalid_input,
                         "they are up to 0.5 of a voxel off; the limit is 0.05");
     labels.grid.index_to_mm = grid_.index_to_mm;
     labels.grid.index_to_mm.set_column(2, 0.5 * grid_.index_to_mm.column(2));
-    EXPECT_KONTUR_ERROR(
-        write_dicom_seg(path(), {labels, three_segments()}, series_), ErrorKind::invalid_input,
-        "its voxels of 0.7 x 0.8 x 1.25 mm are not those of the images, which have 0.7 x 0.8 x 2.5 mm");
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), {labels, three_segments()}, series_), ErrorKind::invalid_input,
+                        "its voxels of 0.7 x 0.8 x 1.25 mm are not those of the images, which have 0.7 x 0.8 x 2.5 mm");
     EXPECT_FALSE(fs::exists(path()));
 }
 

@@ -4,6 +4,15 @@ import { Link } from "./link";
 import type { CodedMesh } from "./mesh_code";
 import type { Comparison, Folder, ImportReply, NearDrawing, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
 
+export interface FileChoices {
+  /** So many are in the file, and one has to be named. */
+  frames?: number;
+  /** Of two ways in which a NIfTI file says where it lies one has to be named. */
+  transforms?: boolean;
+  /** The slices of a series can be resampled. */
+  uneven?: boolean;
+}
+
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
  * kinds: "offline" was not sent, "lost" was, but the connection ended before the reply came. "gone" is what has been
@@ -15,12 +24,8 @@ export class ServerError extends Error {
     message: string,
     /** Whether the call would have changed the project. */
     readonly edits = false,
-    /** So many are in the file, and one has to be named. */
-    readonly frames?: number,
-    /** Of two ways in which a NIfTI file says where it lies one has to be named. */
-    readonly transforms?: boolean,
-    /** The slices of a series can be resampled. */
-    readonly uneven?: boolean,
+    /** What has to be chosen before the file can be read. */
+    readonly choices: FileChoices = {},
   ) {
     super(message);
   }
@@ -177,8 +182,8 @@ export class Http {
 
 async function errorOf(reply: Response): Promise<ServerError> {
   try {
-    const { error } = (await reply.json()) as { error: { kind: string; message: string; frames?: number; transforms?: boolean; uneven?: boolean } };
-    return new ServerError(error.kind, error.message, false, error.frames, error.transforms, error.uneven);
+    const { error } = (await reply.json()) as { error: { kind: string; message: string } & FileChoices };
+    return new ServerError(error.kind, error.message, false, error);
   } catch {
     return new ServerError("io", `kontur answered with status ${reply.status}.`);
   }

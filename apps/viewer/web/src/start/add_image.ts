@@ -77,9 +77,9 @@ export class AddImageDialog {
 
   private failed(error: unknown, request: OpenRequest): void {
     const known = error instanceof ServerError ? error : null;
-    if (known?.frames !== undefined) return this.problem.askFrame(request, known.frames, "to be shown", (chosen) => void this.add(chosen));
-    if (known?.transforms) return this.problem.askTransform(request, (chosen) => void this.add(chosen));
-    if (known?.uneven) return this.problem.askResampling(known.message, request, (chosen) => void this.add(chosen));
+    if (known?.choices.frames !== undefined) return this.problem.askFrame(request, known.choices.frames, "to be shown", (chosen) => void this.add(chosen));
+    if (known?.choices.transforms) return this.problem.askTransform(request, (chosen) => void this.add(chosen));
+    if (known?.choices.uneven) return this.problem.askResampling(known.message, request, (chosen) => void this.add(chosen));
     if (known?.kind === "cancelled") this.problem.set("");
     else this.problem.tell(error);
   }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Vec3 } from "../geometry/vec";
 import { volumeText } from "../model/volumes";
+import type { Maker } from "../net/calls";
 import type { CorrectionState, Structure } from "../net/protocol";
 import { PLANE_COLORS } from "../model/palette";
 import { contourName, placeOf } from "./contour_names";
@@ -7,7 +9,12 @@ import type { RowServices } from "./contour_rows";
 import { buttonPiece } from "../dom/dom";
 import { ICONS } from "../dom/icons";
 import { piece, type Piece } from "../dom/pieces";
-import type { QualityServices } from "./quality";
+
+/** What is done about what is seen. */
+export interface CorrectionServices {
+  goTo(p: Vec3): void;
+  call: Maker;
+}
 
 /** The planes in which a mask is right: a row for each, to go there, and to take that back. */
 export function confirmedPlaneRows({ id, mask }: Structure, { navigation, call, show }: RowServices): Piece[] {
@@ -35,7 +42,7 @@ export function confirmedPlaneRows({ id, mask }: Structure, { navigation, call, 
 const REACHES = [0.5, 1, 2] as const;
 
 /** What the corrections of a mask come to, and what can be done about it. */
-export function correctionEntries(correction: CorrectionState, { id, mask }: Structure, { goTo, call }: QualityServices): Piece[] {
+export function correctionEntries(correction: CorrectionState, { id, mask }: Structure, { goTo, call }: CorrectionServices): Piece[] {
   const entries: Piece[] = [piece("p", { class: "certainty", "data-test": "correction" }, asSentence(correctionText(correction)))];
   if (correction.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(correction.image)));
   for (const { at, volume_ml } of correction.dropped ? [] : correction.loose)

@@ -24,8 +24,8 @@ test("a click sets a point where it began, and a drag where it ends; it is seen 
   drag([300, 200], [302, 201]);
   drag([100, 200], [100, 120]);
   assert.deepEqual(edits(), [
-    { name: "point.add", args: { structure: 1, at: [50, 0, 0] } },
-    { name: "point.add", args: { structure: 1, at: [-50, -40, 0] } },
+    { name: "point.add", args: { structure: 1, at: [50, 0, 0], kind: "surface" } },
+    { name: "point.add", args: { structure: 1, at: [-50, -40, 0], kind: "surface" } },
   ]);
   assert.deepEqual(seen(), [[-50, -40, 0]]);
   tell([50, 0, 0], [-50, -40, 0]);
@@ -94,7 +94,7 @@ test("a click in 3D sets a point of the structure that is hit; near one that is 
   click(1, [31, 2, 0]);
   assert.deepEqual([edits(), points.selected?.at], [[], [30, 0, 0]]);
   click(2, [31, 2, 0]);
-  assert.deepEqual(edits(), [{ name: "point.add", args: { structure: 2, at: [31, 2, 0] } }]);
+  assert.deepEqual(edits(), [{ name: "point.add", args: { structure: 2, at: [31, 2, 0], kind: "surface" } }]);
   assert.equal(project.activeStructure?.id, 2, "it is the one that is worked on");
 });
 

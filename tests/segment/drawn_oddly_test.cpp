@@ -258,6 +258,15 @@ TEST(DrawnOddly, BetweenTwoTeethOfACombNothingGrows) {
     EXPECT_LT(result.report.section_check.largest_wrong_share(), 0.02);
 }
 
+TEST(DrawnOddly, RingsThatAPlaneBetweenThemDoesNotShowAreTwoObjects) {
+    ContourSet set;
+    for (double z = -20; z <= 20; z += 10) set.contours.push_back(circle_at({0, 0, z}, 20));
+    for (const double z : {-20.0, 20.0}) set.contours.push_back(circle_at({35, 0, z}, 6));
+    const Segmentation result = segmented(set, 2, 20);
+    EXPECT_TRUE(sentences(result.report.section_check).empty()) << sentences(result.report.section_check).front();
+    EXPECT_LT(result.function.value({35, 0, 0}), 0);
+}
+
 TEST(DrawnOddly, AnArchIsNotCutByItsOwnPlanes) {
     ContourSet arch;
     for (int i = 0; i < 9; ++i) {

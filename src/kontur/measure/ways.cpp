@@ -144,13 +144,22 @@ private:
                 if (distance(click, place) < kNear * length_mm) return true;
             for (std::size_t other = 0; other < looks_.size(); ++other) {
                 const Plane& plane = looks_[other].plane();
-                if (other == own || other == to || norm(cross(plane.normal, direction)) < kLeastSine) continue;
+                if (other == own || other == to) continue;
+                const bool is_across = norm(cross(plane.normal, direction)) < kLeastSine;
+                if (is_across && !lies_between(plane, places)) continue;
                 if (std::abs(plane.distance_to(place)) >= kNear * length_mm) continue;
                 const Point2 at = plane.to_uv(place);
                 if (!looks_[other].contains(at) && !is_silent(looks_[other], at, length_mm)) return true;
             }
         }
         return false;
+    }
+
+    /// Whether a way crosses a plane: never on the way to the next plane, but rings of one tube may have others between
+    /// them.
+    static bool lies_between(const Plane& plane, std::span<const Vec3> places) {
+        const Vec3 start = 2 * places.front() - places[1], end = 2 * places.back() - places[places.size() - 2];
+        return plane.distance_to(start) * plane.distance_to(end) < 0;
     }
 
     /// A plane says nothing far from its own lines.

@@ -46,10 +46,10 @@ Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) 
 /// Of several frames, where none was chosen, the first stands for all: a file is to be looked at before that is known.
 Facts describe_frame(const fs::path& path, ReadImageOptions options, const Work& work) {
     try {
-        return describe(read_image(path, options, work));
+        return describe(read_label_image(path, options, work));
     } catch (const FrameChoiceError& needed) {
         options.frame = 1;
-        Facts facts = describe(read_image(path, options, work));
+        Facts facts = describe(read_label_image(path, options, work));
         facts["frames"] = needed.frames();
         if (options.on_note) options.on_note("the values are those of frame 1; --frame takes another");
         return facts;

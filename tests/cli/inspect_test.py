@@ -69,6 +69,13 @@ def test_an_image_that_is_no_label_map_has_no_labels(tmp_path):
     assert (facts["samples"], facts["labels"], facts["min"], facts["max"]) == ("float32", [], -1, 1)
 
 
+def test_labels_that_a_writer_scaled_are_listed_with_a_note(tmp_path):
+    scaled = numpy.float32(0.99995) * (ball_array(affine=lps_affine(2.0), shape=(20, 20, 15)) * 5)
+    [facts] = inspect(write_nifti(tmp_path / "labels.nii.gz", scaled, lps_affine(2.0)))
+    assert [label["label"] for label in facts["labels"]] == [5]
+    assert ["they are rounded" in note for note in facts["notes"]] == [True]
+
+
 def test_of_several_frames_the_first_is_described_and_all_are_counted(tmp_path):
     frames = numpy.zeros((5, 4, 3, 6), numpy.int16) + 10 * numpy.arange(6, dtype=numpy.int16)
     path = write_nifti(tmp_path / "cine.nii.gz", frames)

@@ -102,7 +102,7 @@ private:
         const DrawnRegion* nearest = nullptr;
         double least = std::numeric_limits<double>::infinity();
         for (const DrawnRegion& other : regions_) {
-            if (&other == &own_ || crosses(normal_, other.section.plane.normal) == 1) continue;
+            if (&other == &own_ || crossing(normal_, other.section.plane.normal) == 1) continue;
             const double ahead = side * own_.section.plane.distance_to(other.ball.center);
             if (ahead > 0 && ahead < least) least = ahead, nearest = &other;
         }
@@ -141,9 +141,11 @@ private:
         for (const auto& [apart_mm, index] : nearest_first(place, clear)) {
             const DrawnRegion& other = regions_[index];
             const double share = outside_per_mm(normal_, other.section.plane.normal);
-            const double crossing = crosses(normal_, other.section.plane.normal);
-            if (share * apart_mm >= nearest &&
-                surely((2 - crossing) * apart_mm / clear) <= std::min(shown_before, shown_behind))
+            // Who draws rings across a vessel leaves out the other turns that their planes cut, so what other planes show
+            // near by is believed; a parallel one has to be twice as near. As near, and combs and letters grow islands;
+            // three times, and a helix falls apart.
+            const double nearer = 2 - crossing(normal_, other.section.plane.normal);
+            if (share * apart_mm >= nearest && surely(nearer * apart_mm / clear) <= std::min(shown_before, shown_behind))
                 continue;
             double before = 0, behind = 0;
             other.places.visit_within(place, clear, [&](const Vec3& shown) {
@@ -152,7 +154,7 @@ private:
                 nearest = std::min(nearest, share * apart);
                 const double ahead = dot(shown - place, normal_);
                 double& side = ahead > 0 ? before : behind;
-                if (const double most = surely((2 - crossing) * apart / clear); most > side)
+                if (const double most = surely(nearer * apart / clear); most > side)
                     side = std::max(side, most * smooth_step(0, 0.5, std::abs(ahead / apart)));
             });
             if (before > 0 && behind > 0 && !other.search.contains(other.section.plane.to_uv(place))) {
@@ -165,15 +167,6 @@ private:
             shown_behind = std::max(shown_behind, behind);
         }
         return {nearest, 1 - shown_before * shown_behind};
-    }
-
-    /// 0 for a parallel plane. Who draws rings across a vessel leaves out the other turns that their planes cut, so what
-    /// other planes show near by is believed; a parallel one has to be twice as near. As near, and combs and letters grow
-    /// islands; three times, and a helix falls apart.
-    static double crosses(const Vec3& normal, const Vec3& other) {
-        constexpr double kSine = 0.5;
-        const double cosine = dot(normal, other);
-        return smooth_step(0, kSine * kSine, 1 - cosine * cosine);
     }
 
     static double surely(double share_of_clear) { return 1 - smooth_step(kSurelyNear, 1, share_of_clear); }

@@ -45,12 +45,18 @@ inline Bound outside_bound(const Vec3& place, double outside_mm, double step_mm,
             .noise_mm = faded(0.1 * std::max(outside_mm, step_mm / 8), belief)};
 }
 
-/// How far outside a place of one plane is, for each mm from what another plane shows of the object: beyond a parallel one
-/// the object may go on; from 30 degrees on the distance counts in full.
-inline double outside_per_mm(const Vec3& normal, const Vec3& other) {
-    constexpr double kParallel = 0.1, kSlantedSine2 = 0.25;
+/// How much another plane crosses one: 0 for a parallel one, 1 from 30 degrees on.
+inline double crossing(const Vec3& normal, const Vec3& other) {
+    constexpr double kSlantedSine2 = 0.25;
     const double cosine = dot(normal, other);
-    return kParallel + (1 - kParallel) * smooth_step(0, kSlantedSine2, 1 - cosine * cosine);
+    return smooth_step(0, kSlantedSine2, 1 - cosine * cosine);
+}
+
+/// How far outside a place of one plane is, for each mm from what another plane shows of the object: beyond a parallel one
+/// the object may go on.
+inline double outside_per_mm(const Vec3& normal, const Vec3& other) {
+    constexpr double kParallel = 0.1;
+    return kParallel + (1 - kParallel) * crossing(normal, other);
 }
 
 }  // namespace kontur

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kontur/base/smooth_step.h"
+#include "kontur/base/turn.h"
 
 namespace kontur {
 namespace {
@@ -50,12 +51,6 @@ std::vector<Part> parts_of(const std::vector<DrawnRegion>& regions) {
         }
     }
     return parts;
-}
-
-/// The rotation that turns one unit vector into another one, not opposite to it (Rodrigues).
-Vec3 turned(const Vec3& v, const Vec3& from, const Vec3& to) {
-    const Vec3 axis = cross(from, to);
-    return v + cross(axis, v) + cross(axis, cross(axis, v)) / (1 + dot(from, to));
 }
 
 class Tubes {

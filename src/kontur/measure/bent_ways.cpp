@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "kontur/base/turn.h"
+
 namespace kontur {
 namespace {
 
@@ -78,14 +80,6 @@ bool may_be_one_tube(const Ring& a, const Ring& b) {
     constexpr double kLeastRadii = 3, kMostRatio = 2;
     const auto [thin, thick] = std::minmax({a.radius_mm, b.radius_mm});
     return thick < kMostRatio * thin && distance(a.middle, b.middle) > kLeastRadii * thick;
-}
-
-/// v, turned as the shortest turn takes the unit vector `from` to `to`.
-Vec3 turned(const Vec3& v, const Vec3& from, const Vec3& to) {
-    const double cosine = dot(from, to);
-    if (cosine < -0.999) return v;
-    const Vec3 axis = cross(from, to);
-    return cosine * v + cross(axis, v) + (dot(axis, v) / (1 + cosine)) * axis;
 }
 
 /// Along the cubic whose ends lie in the rings' middles and run along their normals.

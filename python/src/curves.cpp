@@ -7,7 +7,7 @@
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/fill_rule.h"
 #include "kontur/shape/provenance.h"
-#include "kontur/shape/self_contacts.h"
+#include "kontur/shape/self_intersections.h"
 #include "kontur/shape/spline.h"
 #include "segment_words.h"
 
@@ -34,7 +34,7 @@ Polygon2 polygon_from(const ArrayOf<double>& points) {
     return polygon;
 }
 
-std::string word(SelfContact::Kind kind) {
+std::string word(SelfIntersection::Kind kind) {
     constexpr std::array<const char*, 3> kWords{"crossing", "touch", "fold"};
     return kWords[static_cast<std::size_t>(kind)];
 }
@@ -63,14 +63,14 @@ void bind_types(py::module_& m, py::module_& stages) {
     changes.def_readonly("near_lines", &FillChanges::near_lines,
                          "list of NearLines: taken for one line, or a hole that leaves a thin wall; indices of the result.");
 
-    py::class_<SelfContact> contact(stages, "SelfContact", "A place where two parts of a closed polygon meet.");
+    py::class_<SelfIntersection> contact(stages, "SelfIntersection", "A place where two parts of a closed polygon meet.");
     contact.def_property_readonly(
-        "kind", [](const SelfContact& c) { return word(c.kind); }, "str: 'crossing', 'touch' or 'fold'.");
+        "kind", [](const SelfIntersection& c) { return word(c.kind); }, "str: 'crossing', 'touch' or 'fold'.");
     contact.def_property_readonly(
-        "position", [](const SelfContact& c) { return py::array_t<double>(2, c.position.data()); },
+        "position", [](const SelfIntersection& c) { return py::array_t<double>(2, c.position.data()); },
         "ndarray, shape (2,), float64");
-    contact.def_readonly("first", &SelfContact::first, "int: the segment from point `first` to the next.");
-    contact.def_readonly("second", &SelfContact::second, "int: likewise, larger.");
+    contact.def_readonly("first", &SelfIntersection::first, "int: the segment from point `first` to the next.");
+    contact.def_readonly("second", &SelfIntersection::second, "int: likewise, larger.");
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ Examples
         },
         py::arg("contours"), py::arg("fill_rule") = FillRule{});
     define(
-        stages, "find_self_contacts", R"(All places where a closed polygon meets itself, decided exactly.
+        stages, "find_self_intersections", R"(All places where a closed polygon meets itself, decided exactly.
 
 Parameters
 ----------
@@ -157,17 +157,17 @@ points : array_like, shape (n, 2)
 
 Returns
 -------
-list of SelfContact
+list of SelfIntersection
 
 Examples
 --------
->>> [contact] = kontur.stages.find_self_contacts([[0, 0], [10, 10], [10, 0], [0, 10]])
+>>> [contact] = kontur.stages.find_self_intersections([[0, 0], [10, 10], [10, 0], [0, 10]])
 >>> contact.kind, contact.position.tolist()
 ('crossing', [5.0, 5.0])
 )",
         [](const ArrayOf<double>& points) {
             const Polygon2 polygon = polygon_from(points);
-            return unlocked([&] { return find_self_contacts(polygon).contacts; });
+            return unlocked([&] { return find_self_intersections(polygon).places; });
         },
         py::arg("points"));
 }

@@ -14,7 +14,7 @@
 #include "kontur/shape/apply_fill_rule.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/crossings.h"
-#include "kontur/shape/self_contacts.h"
+#include "kontur/shape/self_intersections.h"
 
 // Lines become a function.
 #include "kontur/fit/fit.h"

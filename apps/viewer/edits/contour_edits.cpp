@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "kontur/base/error.h"
-#include "kontur/shape/self_contacts.h"
+#include "kontur/shape/self_intersections.h"
 #include "viewer/edits/contour_lines.h"
 
 namespace kontur::viewer {
@@ -242,9 +242,9 @@ std::vector<Vec3> self_crossings(const DrawnContour& contour, std::size_t most) 
     while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
     std::vector<Vec3> crossings;
     if (polygon.size() < 4) return crossings;  // three points cannot cross
-    for (const SelfContact& contact : find_self_contacts(polygon).contacts) {
+    for (const SelfIntersection& contact : find_self_intersections(polygon).places) {
         const bool is_drawn = has_last_edge || contact.second + 1 < polygon.size();
-        if (is_drawn && contact.kind == SelfContact::Kind::crossing && crossings.size() < most)
+        if (is_drawn && contact.kind == SelfIntersection::Kind::crossing && crossings.size() < most)
             crossings.push_back(contour.plane.from_uv(contact.position));
     }
     return crossings;

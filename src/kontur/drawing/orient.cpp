@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kontur/base/checks.h"
-#include "kontur/shape/self_contacts.h"
+#include "kontur/shape/self_intersections.h"
 
 namespace kontur {
 namespace {
@@ -41,7 +41,7 @@ ContourOrientation orient(const Contour& contour) {
     const Plane& plane = contour.plane;
     Polygon2 polygon;
     for (const Vec3& p : contour.points) polygon.push_back(plane.to_uv(p));
-    const SelfContacts contacts = find_self_contacts(polygon);
+    const SelfIntersections found = find_self_intersections(polygon);
     const std::size_t n = polygon.size(), start = extreme_point(polygon);
 
     ContourOrientation result;
@@ -52,11 +52,11 @@ ContourOrientation orient(const Contour& contour) {
         const std::size_t i = (start + step) % n;
         const Point2 normal = left_normal(polygon, i);
         result.normals[i] = normalized(sign * (normal[0] * plane.u + normal[1] * plane.v));
-        if (contacts.crossings_of_segment[i] % 2 != 0) sign = -sign;
+        if (found.crossings_of_segment[i] % 2 != 0) sign = -sign;
     }
-    for (const SelfContact& contact : contacts.contacts)
-        if (contact.kind == SelfContact::Kind::crossing) result.crossings.push_back(plane.from_uv(contact.position));
-    for (const Point2& p : contacts.between_crossings) result.between_crossings.push_back(plane.from_uv(p));
+    for (const SelfIntersection& contact : found.places)
+        if (contact.kind == SelfIntersection::Kind::crossing) result.crossings.push_back(plane.from_uv(contact.position));
+    for (const Point2& p : found.between_crossings) result.between_crossings.push_back(plane.from_uv(p));
     return result;
 }
 

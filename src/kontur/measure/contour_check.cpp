@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "kontur/measure/findings.h"
-#include "kontur/shape/self_contacts.h"
+#include "kontur/shape/self_intersections.h"
 
 namespace kontur {
 namespace {
@@ -28,7 +28,7 @@ public:
         if (!is_finite_and_long_enough() || is_refused()) return false;
         find_repeated_points();
         find_uneven_edges();
-        if (contour_.closed) find_self_contacts();
+        if (contour_.closed) find_self_intersections();
         return true;
     }
 
@@ -115,24 +115,24 @@ private:
                 fmt::format("has an edge of {:.3g} mm, {:.0f} times its usual one", length, length / usual), middle, length);
     }
 
-    void find_self_contacts() {
+    void find_self_intersections() {
         Polygon2 polygon;
         for (const Vec3& p : points_) polygon.push_back(contour_.plane.to_uv(p));
         polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
         if (polygon.size() < 3) return;
         std::array<std::vector<Vec3>, 3> places;  // by kind
-        for (const SelfContact& c : kontur::find_self_contacts(polygon).contacts)
+        for (const SelfIntersection& c : kontur::find_self_intersections(polygon).places)
             places[static_cast<std::size_t>(c.kind)].push_back(contour_.plane.from_uv(c.position));
-        const auto report = [&](SelfContact::Kind kind, FindingKind finding, Severity severity, const char* what) {
+        const auto report = [&](SelfIntersection::Kind kind, FindingKind finding, Severity severity, const char* what) {
             const std::vector<Vec3>& at = places[static_cast<std::size_t>(kind)];
             if (at.empty()) return;
             add(finding, severity, at.size() == 1 ? std::string(what) : fmt::format("{} in {} places", what, at.size()),
                 at.front());
         };
-        report(SelfContact::Kind::crossing, FindingKind::self_crossing, Severity::warning, "crosses itself");
-        report(SelfContact::Kind::touch, FindingKind::self_touch, Severity::note, "touches itself");
-        report(SelfContact::Kind::fold, FindingKind::spike, Severity::warning, "runs back on itself");
-        if (places[static_cast<std::size_t>(SelfContact::Kind::fold)].empty()) find_narrow_spike();
+        report(SelfIntersection::Kind::crossing, FindingKind::self_crossing, Severity::warning, "crosses itself");
+        report(SelfIntersection::Kind::touch, FindingKind::self_touch, Severity::note, "touches itself");
+        report(SelfIntersection::Kind::fold, FindingKind::spike, Severity::warning, "runs back on itself");
+        if (places[static_cast<std::size_t>(SelfIntersection::Kind::fold)].empty()) find_narrow_spike();
     }
 
     /// A turn by almost 180 degrees between edges that are no shorter than usual.
@@ -166,11 +166,12 @@ std::string_view name(Severity severity) noexcept {
 
 std::string_view name(FindingKind kind) noexcept {
     constexpr std::array<std::string_view, 27> kNames{
-        "no_contours",      "too_few_points", "not_finite",      "off_plane",  "no_area",       "unusable",
-        "repeated_points",  "spike",          "self_crossing",   "self_touch", "long_edge",     "maybe_open",
-        "maybe_closed",     "tiny",           "duplicate",       "overlap",    "unmarked_hole", "thin_wall",
-        "stray_hole",       "contradiction",  "misplaced_point", "isolated",   "gap",           "far_rings",
-        "one_plane",        "implausible_size", "far_away"};
+        "no_contours",      "too_few_points",  "not_finite",   "off_plane",     "no_area",
+        "unusable",         "repeated_points", "spike",        "self_crossing", "self_touch",
+        "long_edge",        "maybe_open",      "maybe_closed", "tiny",          "duplicate",
+        "overlap",          "unmarked_hole",   "thin_wall",    "stray_hole",    "contradiction",
+        "misplaced_point",  "isolated",        "gap",          "far_rings",     "one_plane",
+        "implausible_size", "far_away"};
     static_assert(kNames.size() == static_cast<std::size_t>(FindingKind::far_away) + 1);
     return kNames[static_cast<std::size_t>(kind)];
 }

@@ -37,7 +37,7 @@ export function frameChoice(frames: number, services: FrameChoiceServices): { el
   const element = el(
     "span",
     { class: "frame-choice" },
-    ` Frame 1 to ${frames}: `,
+    `Frame 1 to ${frames}: `,
     field,
     button({ label: "Open", title: "Open this frame", class: "choice", test: "frame-open", click: choose }),
     canvas,

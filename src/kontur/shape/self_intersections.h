@@ -18,7 +18,7 @@ bool is_left_turn(const Polygon2& polygon, std::size_t a, std::size_t b, std::si
 std::size_t extreme_point(const Polygon2& polygon);
 
 /// A place where two parts of a closed polygon meet.
-struct SelfContact {
+struct SelfIntersection {
     enum class Kind {
         crossing,  ///< one part passes through the other, be it in a common point or along a common stretch
         touch,     ///< they meet and part on the same side
@@ -29,8 +29,8 @@ struct SelfContact {
     std::size_t first, second;  ///< segments, from point i to point i + 1; first < second
 };
 
-struct SelfContacts {
-    std::vector<SelfContact> contacts;
+struct SelfIntersections {
+    std::vector<SelfIntersection> places;
     /// Of each segment how many others cross it, after the infinitesimal displacement: the side on which the inside lies
     /// (even-odd) changes along the segment if that is odd.
     std::vector<int> crossings_of_segment;
@@ -39,8 +39,8 @@ struct SelfContacts {
     std::vector<Point2> between_crossings;
 };
 
-/// All places where a closed polygon meets itself, decided exactly on the given coordinates, by a sweep over the first
-/// coordinate: O(n log n) for n points of which few lie side by side. No point may repeat the one before it.
-SelfContacts find_self_contacts(const Polygon2& polygon);
+/// All places where a closed polygon meets itself (paper section 5.1), decided exactly on the given coordinates, by a sweep
+/// over the first coordinate: O(n log n) for n points of which few lie side by side. No point may repeat the one before it.
+SelfIntersections find_self_intersections(const Polygon2& polygon);
 
 }  // namespace kontur

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/shape/self_contacts.h"
+#include "kontur/shape/self_intersections.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace kontur {
 namespace {
 
-using Kind = SelfContact::Kind;
+using Kind = SelfIntersection::Kind;
 
 Polygon2 started_at(Polygon2 polygon, std::size_t first) {
     std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(first), polygon.end());
@@ -26,7 +26,7 @@ Polygon2 reversed(Polygon2 polygon) {
 
 std::vector<Kind> kinds(const Polygon2& polygon) {
     std::vector<Kind> result;
-    for (const SelfContact& c : find_self_contacts(polygon).contacts) result.push_back(c.kind);
+    for (const SelfIntersection& c : find_self_intersections(polygon).places) result.push_back(c.kind);
     std::sort(result.begin(), result.end());
     return result;
 }
@@ -39,31 +39,31 @@ void expect_kinds(const Polygon2& polygon, std::vector<Kind> expected, const cha
             EXPECT_EQ(kinds(drawn), expected) << what << " started at " << first;
 }
 
-TEST(SelfContacts, SimplePolygonsHaveNone) {
+TEST(SelfIntersections, SimplePolygonsHaveNone) {
     std::mt19937 random = test::random_of_this_test();
     for (int round = 0; round < 50; ++round) EXPECT_TRUE(kinds(test::random_star(3 + round, random)).empty());
 }
 
-TEST(SelfContacts, FigureOfEightCrossesWhetherOrNotThroughAPoint) {
+TEST(SelfIntersections, FigureOfEightCrossesWhetherOrNotThroughAPoint) {
     expect_kinds({{-2, -1}, {2, 1}, {2, -1}, {-2, 1}}, {Kind::crossing}, "between points");
     expect_kinds({{-2, -1}, {0, 0}, {2, 1}, {2, -1}, {-2, 1}}, {Kind::crossing}, "through one point");
     expect_kinds({{0, 0}, {2, -1}, {3, 0}, {2, 1}, {0, 0}, {-2, -1}, {-3, 0}, {-2, 1}}, {Kind::crossing}, "through two");
 }
 
-TEST(SelfContacts, LobesThatMeetInAPointTouch) {
+TEST(SelfIntersections, LobesThatMeetInAPointTouch) {
     expect_kinds({{0, 0}, {2, -1}, {3, 0}, {2, 1}, {0, 0}, {-2, 1}, {-3, 0}, {-2, -1}}, {Kind::touch}, "in two points");
     expect_kinds({{-3, 0}, {3, 0}, {3, 2}, {0, 0}, {-3, 2}}, {Kind::touch}, "tip on an edge");
     expect_kinds({{-3, 0}, {3, 0}, {3, 2}, {0, 1e-12}, {-3, 2}}, {}, "tip just off an edge");
     expect_kinds({{-3, 0}, {3, 0}, {3, 2}, {0, -1e-12}, {-3, 2}}, {Kind::crossing, Kind::crossing}, "tip just beyond");
 }
 
-TEST(SelfContacts, CommonStretchIsOneContact) {
+TEST(SelfIntersections, CommonStretchIsOneContact) {
     expect_kinds({{1, 0}, {3, 0}, {4, 2}, {5, 0}, {5, -3}, {0, -3}, {0, 0}, {1, 0}, {3, 0}, {2, 4}}, {Kind::crossing},
                  "passes through along a stretch");
     expect_kinds({{-6, 5}, {-4, 0}, {4, 0}, {6, 5}, {2, 4}, {1, 0}, {-1, 0}, {-2, 4}}, {Kind::touch}, "rests on a stretch");
 }
 
-TEST(SelfContacts, SpikesFold) {
+TEST(SelfIntersections, SpikesFold) {
     expect_kinds({{-1, -1}, {1, -1}, {1, 0}, {3, 0}, {1, 0}, {1, 1}, {-1, 1}}, {Kind::fold}, "there and back");
     expect_kinds({{-1, -1}, {1, -1}, {1, 0}, {3, 0}, {2, 0}, {1, 1}, {-1, 1}}, {Kind::fold}, "not all the way back");
     expect_kinds({{0, 0}, {4, 0}, {4, 3}, {0, 3}, {0, 0}, {0, 3}, {-4, 3}, {-4, 0}}, {Kind::fold, Kind::touch},
@@ -71,17 +71,17 @@ TEST(SelfContacts, SpikesFold) {
     expect_kinds({{-1, -1}, {1, -1}, {1, -1e-12}, {3, 0}, {1, 1e-12}, {1, 1}, {-1, 1}}, {}, "thin");
 }
 
-TEST(SelfContacts, PositionIsWhereTheSegmentsMeet) {
-    const SelfContacts found = find_self_contacts({{-2, -1}, {2, 1}, {2, -2}, {-2, 2}});
-    ASSERT_EQ(found.contacts.size(), 1u);
-    EXPECT_NEAR(found.contacts[0].position[0], 0, 1e-15);
-    EXPECT_NEAR(found.contacts[0].position[1], 0, 1e-15);
-    EXPECT_EQ(found.contacts[0].first, 0u);
-    EXPECT_EQ(found.contacts[0].second, 2u);
+TEST(SelfIntersections, PositionIsWhereTheSegmentsMeet) {
+    const SelfIntersections found = find_self_intersections({{-2, -1}, {2, 1}, {2, -2}, {-2, 2}});
+    ASSERT_EQ(found.places.size(), 1u);
+    EXPECT_NEAR(found.places[0].position[0], 0, 1e-15);
+    EXPECT_NEAR(found.places[0].position[1], 0, 1e-15);
+    EXPECT_EQ(found.places[0].first, 0u);
+    EXPECT_EQ(found.places[0].second, 2u);
     EXPECT_EQ(found.crossings_of_segment, (std::vector<int>{1, 0, 1, 0}));
 }
 
-TEST(SelfContacts, PixelSnappedPathsDoNotDependOnTheirStart) {
+TEST(SelfIntersections, PixelSnappedPathsDoNotDependOnTheirStart) {
     std::mt19937 random = test::random_of_this_test();
     std::uniform_int_distribution<int> pixel(0, 4);
     std::size_t contacts = 0;
@@ -98,11 +98,11 @@ TEST(SelfContacts, PixelSnappedPathsDoNotDependOnTheirStart) {
     EXPECT_GT(contacts, 400u);
 }
 
-TEST(SelfContacts, EveryEdgeOfEveryLobeHasAPoint) {
+TEST(SelfIntersections, EveryEdgeOfEveryLobeHasAPoint) {
     // The five arms of a pentagram have one point each, the edges of the pentagon in its middle none.
     const Polygon2 pentagram{{0, 10}, {6, -8}, {-9.5, 3}, {9.5, 3}, {-6, -8}};
-    const SelfContacts found = find_self_contacts(pentagram);
-    EXPECT_EQ(found.contacts.size(), 5u);
+    const SelfIntersections found = find_self_intersections(pentagram);
+    EXPECT_EQ(found.places.size(), 5u);
     ASSERT_EQ(found.between_crossings.size(), 5u);
     for (const Point2& p : found.between_crossings) {
         EXPECT_LT(std::hypot(p[0], p[1]), 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/shape/self_contacts.h"
+#include "kontur/shape/self_intersections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,13 +98,13 @@ public:
                         parent_[root(p)] = root(entry->second);
     }
 
-    void append_to(std::vector<SelfContact>& contacts) {
-        using Kind = SelfContact::Kind;
-        std::map<std::size_t, SelfContact> by_root;
+    void append_to(std::vector<SelfIntersection>& contacts) {
+        using Kind = SelfIntersection::Kind;
+        std::map<std::size_t, SelfIntersection> by_root;
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
             const Pair& pair = pairs_[p];
             const auto [at, is_new] = by_root.try_emplace(
-                root(p), SelfContact{Kind::touch, touching_point(polygon_, pair), pair.first, pair.second});
+                root(p), SelfIntersection{Kind::touch, touching_point(polygon_, pair), pair.first, pair.second});
             Kind& kind = at->second.kind;
             if (are_neighbours(pair)) kind = Kind::fold;
             // Two parts cross if their displaced copies cross an odd number of times.
@@ -131,9 +131,9 @@ private:
 };
 
 /// Points half way between neighbouring crossings on each segment.
-std::vector<Point2> between(const Polygon2& polygon, const std::vector<SelfContact>& crossings) {
+std::vector<Point2> between(const Polygon2& polygon, const std::vector<SelfIntersection>& crossings) {
     std::map<std::size_t, std::vector<double>> by_segment;
-    for (const SelfContact& c : crossings) {
+    for (const SelfIntersection& c : crossings) {
         by_segment[c.first].push_back(fraction(polygon, c.first, c.second));
         by_segment[c.second].push_back(fraction(polygon, c.second, c.first));
     }
@@ -173,8 +173,8 @@ std::size_t extreme_point(const Polygon2& polygon) {
     return best;
 }
 
-SelfContacts find_self_contacts(const Polygon2& polygon) {
-    SelfContacts result;
+SelfIntersections find_self_intersections(const Polygon2& polygon) {
+    SelfIntersections result;
     result.crossings_of_segment.assign(polygon.size(), 0);
     std::vector<Pair> touching;
     for (const Pair& pair : meeting_pairs(polygon)) {
@@ -182,12 +182,12 @@ SelfContacts find_self_contacts(const Polygon2& polygon) {
         result.crossings_of_segment[pair.second] += pair.crosses;
         if (pair.meeting == Meeting::touching) touching.push_back(pair);
         else
-            result.contacts.push_back({SelfContact::Kind::crossing,
-                                       along(polygon, pair.first, fraction(polygon, pair.first, pair.second)), pair.first,
-                                       pair.second});
+            result.places.push_back({SelfIntersection::Kind::crossing,
+                                     along(polygon, pair.first, fraction(polygon, pair.first, pair.second)), pair.first,
+                                     pair.second});
     }
-    result.between_crossings = between(polygon, result.contacts);
-    Contacts(polygon, touching).append_to(result.contacts);
+    result.between_crossings = between(polygon, result.places);
+    Contacts(polygon, touching).append_to(result.places);
     return result;
 }
 

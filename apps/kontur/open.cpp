@@ -133,7 +133,7 @@ private:
             if (terminal.callback) terminal.callback(stage, fraction);
             if (pages.callback) pages.callback(stage, fraction);
         };
-        Opened opened = open_project(command_, words_, Work{.callback = tell, .stop = pages.stop});
+        ProjectSession opened = open_project(command_, words_, Work{.callback = tell, .stop = pages.stop});
         console_.note(opened.messages.notes);
         for (const std::string& warning : opened.messages.warnings) console_.warn(warning);
         project_ = opened.session->project_path();

@@ -67,17 +67,18 @@ fs::path project_path(const OpenCommand& command, const Words& words, const view
 }
 
 /// A structure set with all its regions, or each segment traced, read by a process of its own.
-viewer::Imported drawn_by_others(const fs::path& file, const Work& work) {
+viewer::ImportContent drawn_by_others(const fs::path& file, const Work& work) {
     const viewer::Upload upload{.extension = ".dcm", .file = file.filename().string()};
     return viewer::import_apart(viewer::read_bytes(file), upload, work);
 }
 
 /// What a new project starts with: the contours of the file, or a structure to draw.
-viewer::Imported first_contours(const OpenCommand& command, const Words& words, const Work& work, Opened& result) {
+viewer::ImportContent first_contours(const OpenCommand& command, const Words& words, const Work& work,
+                                     ProjectSession& result) {
     if (command.read.curves && words.contours.empty())
         throw Error(ErrorKind::invalid_input, "--curves is for 3D Slicer's markups (.mrk.json), and there are none");
     if (words.contours.empty()) return {{ContourSet{}}, {}, {}, {}};
-    viewer::Imported first;
+    viewer::ImportContent first;
     if (!command.read.roi && !command.read.curves && dicom_drawing(words.contours)) {
         first = drawn_by_others(words.contours, work);
     } else {
@@ -96,7 +97,8 @@ viewer::Imported first_contours(const OpenCommand& command, const Words& words, 
 }
 
 /// Whoever names image and contours together may have named the wrong ones: said here and on the page.
-void tell_doubts(const viewer::Imported& first, const std::string& file, viewer::OpenedImage& image, Opened& result) {
+void tell_doubts(const viewer::ImportContent& first, const std::string& file, viewer::OpenedImage& image,
+                 ProjectSession& result) {
     for (const std::string& doubt :
          viewer::import_doubts(first.sets, {first.frame_of_reference_uid, first.patient}, image.image->grid,
                                {image.frame_of_reference_uid, viewer::patient_words(image.identity)})) {
@@ -109,10 +111,11 @@ void tell_doubts(const viewer::Imported& first, const std::string& file, viewer:
 void check_is_there(const fs::path& image, const fs::path& project) {
     std::error_code unreachable;
     if (image == viewer::kExample || fs::exists(image, unreachable)) return;
-    throw viewer::ImageMoved(fmt::format("{} was drawn on {}, which is not there; where it has moved, name its new place, "
-                                         "too: kontur open {} IMAGE",
-                                         project.string(), image.string(), project.filename().string()),
-                             image.string());
+    throw viewer::ImageNotFound(
+        fmt::format("{} was drawn on {}, which is not there; where it has moved, name its new place, "
+                    "too: kontur open {} IMAGE",
+                    project.string(), image.string(), project.filename().string()),
+        image.string());
 }
 
 /// The image that the words name, or the project does, with the choice that it was drawn on.
@@ -131,7 +134,7 @@ ImageInput image_input(const OpenCommand& command, const Words& words) {
 
 /// The one that the command names, if it does and it fits: read before there is a project.
 std::optional<viewer::OpenedImage> named_second_image(const ImageInput& input, const viewer::OpenedImage& first,
-                                                      const Work& work, Opened& result) {
+                                                      const Work& work, ProjectSession& result) {
     if (input.path.empty()) return std::nullopt;
     try {
         viewer::OpenedImage second = open_image(input, work, result.messages);
@@ -145,7 +148,7 @@ std::optional<viewer::OpenedImage> named_second_image(const ImageInput& input, c
 }
 
 /// The one that the project keeps. What is wrong with it keeps nobody from work on the first.
-void show_kept_second_image(viewer::Session& session, const Work& work, Opened& result) {
+void show_kept_second_image(viewer::Session& session, const Work& work, ProjectSession& result) {
     const std::optional<viewer::ImageReference> kept = session.kept_second_image();
     if (!kept) return;
     try {
@@ -163,14 +166,14 @@ void show_kept_second_image(viewer::Session& session, const Work& work, Opened& 
 
 }  // namespace
 
-Opened open_project(const OpenCommand& given, const Words& named, const Work& work) {
-    Opened result;
+ProjectSession open_project(const OpenCommand& given, const Words& named, const Work& work) {
+    ProjectSession result;
     OpenCommand command = given;
     const Words words = with_images(named, work, command);
     viewer::OpenedImage image = open_image(image_input(command, words), work, result.messages);
     const fs::path project = project_path(command, words, image);
     // Read before there is a project for them: a file that cannot be read leaves none.
-    std::optional<viewer::Imported> first;
+    std::optional<viewer::ImportContent> first;
     if (!fs::exists(project)) first = first_contours(command, words, work, result);
     if (first) tell_doubts(*first, words.contours.filename().string(), image, result);
     auto second = named_second_image(command.second_image, image, work, result);

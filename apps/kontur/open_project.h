@@ -20,7 +20,7 @@
 namespace kontur::app {
 
 /// A session, and what the user should know of how it came to be.
-struct Opened {
+struct ProjectSession {
     std::shared_ptr<viewer::Session> session;
     Messages messages;
 };
@@ -34,7 +34,7 @@ public:
 /// Reads the image and opens, or makes, the project, with its second image: one that cannot be read, or does not fit, is an
 /// `SecondImageError` where the command names it, and a warning where the project does. Other errors are those of the
 /// readers and of `Session`.
-Opened open_project(const OpenCommand& command, const Words& words, const Work& work);
+ProjectSession open_project(const OpenCommand& command, const Words& words, const Work& work);
 
 /// The same for a page.
 std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Work& work);

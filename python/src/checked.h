@@ -49,7 +49,7 @@ bool loads(Caster& caster, const std::string& parameter, py::handle value) {
 
 /// Stands for a parameter until the function is called.
 template <class Parameter>
-struct Given {
+struct Uncast {
     py::handle value;
 };
 
@@ -59,13 +59,13 @@ inline constexpr bool kIsRest =
 
 /// The rest of the arguments stays what it is; pybind11 knows it by its type.
 template <class Parameter>
-using GivenOrRest = std::conditional_t<kIsRest<Parameter>, Parameter, Given<Parameter>>;
+using UncastOrRest = std::conditional_t<kIsRest<Parameter>, Parameter, Uncast<Parameter>>;
 
 /// One argument on its way into the function.
 template <class Parameter>
 class Argument {
 public:
-    Argument(const std::string& function, const std::string& parameter, const Given<Parameter>& given) {
+    Argument(const std::string& function, const std::string& parameter, const Uncast<Parameter>& given) {
         // None is null for all types of ours, of which there are no references.
         constexpr bool kIsObject =
             std::is_base_of_v<py::detail::type_caster_generic, Caster> && !std::is_pointer_v<Parameter>;
@@ -96,7 +96,7 @@ auto checked(const std::string& name, const std::vector<std::string>& names, Fun
     std::vector<std::string> parameters = names;
     while (parameters.size() < sizeof...(Parameters))
         parameters.push_back("argument " + std::to_string(parameters.size() + 1));
-    return [name, parameters, function](GivenOrRest<Parameters>... given) -> Result {
+    return [name, parameters, function](UncastOrRest<Parameters>... given) -> Result {
         std::size_t n = 0;
         [[maybe_unused]] const auto next = [&]() -> const std::string& { return parameters[n++]; };
         std::tuple<Argument<Parameters>...> arguments{Argument<Parameters>(name, next(), given)...};
@@ -129,8 +129,8 @@ auto checked(const std::string& name, const std::vector<std::string>& names, Res
 namespace pybind11::detail {
 
 template <class Parameter>
-struct type_caster<kontur::python::Given<Parameter>> {
-    PYBIND11_TYPE_CASTER(kontur::python::Given<Parameter>, make_caster<Parameter>::name);
+struct type_caster<kontur::python::Uncast<Parameter>> {
+    PYBIND11_TYPE_CASTER(kontur::python::Uncast<Parameter>, make_caster<Parameter>::name);
 
     bool load(handle source, bool) {
         value = {source};

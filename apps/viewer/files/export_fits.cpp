@@ -70,7 +70,7 @@ std::shared_ptr<const FittedStructure> ExportFits::one(const State& state, Id st
 ExportFits::Fits ExportFits::kept(const State& state, const std::function<std::vector<FittedStructure>()>& fit) {
     {
         const std::scoped_lock lock(mutex_);
-        const auto known = std::ranges::find_if(kept_, [&](const Kept& one) { return is_same(one.state, state); });
+        const auto known = std::ranges::find_if(kept_, [&](const FitsOfState& one) { return is_same(one.state, state); });
         if (known != kept_.end()) {
             kept_.splice(kept_.begin(), kept_, known);
             return known->fits;
@@ -80,7 +80,8 @@ ExportFits::Fits ExportFits::kept(const State& state, const std::function<std::v
     const std::scoped_lock lock(mutex_);
     kept_.push_front({state, made});
     std::size_t bytes = 0, count = 0;
-    std::erase_if(kept_, [&](const Kept& one) { return (bytes += bytes_of(one.fits)) > kMostBytes || ++count > kMostKept; });
+    std::erase_if(kept_,
+                  [&](const FitsOfState& one) { return (bytes += bytes_of(one.fits)) > kMostBytes || ++count > kMostKept; });
     return made;
 }
 

@@ -27,7 +27,7 @@ public:
     std::shared_ptr<const FittedStructure> one(const State& state, Id structure, const Work& work);
 
 private:
-    struct Kept {
+    struct FitsOfState {
         State state;
         Fits fits;
     };
@@ -35,7 +35,7 @@ private:
 
     const std::shared_ptr<const Image> image_;
     std::mutex mutex_;
-    std::list<Kept> kept_;  ///< the last used first
+    std::list<FitsOfState> kept_;  ///< the last used first
 };
 
 }  // namespace kontur::viewer

@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostImportedLabels = 64;
 
-/// Traced contours keep what matters of a mask at a tenth of a millimetre; smaller sections are specks.
+/// MaskOrigin contours keep what matters of a mask at a tenth of a millimetre; smaller sections are specks.
 constexpr TraceOptions kTraceOptions{.step_mm = 0, .tolerance_mm = 0.1, .min_area_mm2 = 4};
 
 /// Planes across `kind`, spread evenly over the mask's extent; a mask has half a step of room beyond the outermost ones.
@@ -74,8 +74,8 @@ ContourSet traced(const Mask& mask, const Upload& request) {
 }
 
 /// Every region that has contours.
-Imported read_rtstruct_of(const fs::path& path) {
-    Imported imported;
+ImportContent read_rtstruct_of(const fs::path& path) {
+    ImportContent imported;
     StructureSet set = read_rtstruct(path);
     imported.notes = std::move(set.notes);
     for (Roi& roi : set.rois) {
@@ -94,7 +94,7 @@ Imported read_rtstruct_of(const fs::path& path) {
 }
 
 /// Of what is traced: who it is of, and what is said of it.
-struct Traced {
+struct MaskOrigin {
     std::string name;  ///< "" where the file has none
     StructureAttributes attributes{};
     std::optional<std::int64_t> label_value{};
@@ -112,7 +112,7 @@ TracedMask preview_of(const Mask& mask, const ContourSet& set) {
 }
 
 /// Adds the mask itself.
-void add_to_correct(Imported& imported, const Mask& mask, Traced of) {
+void add_to_correct(ImportContent& imported, const Mask& mask, MaskOrigin of) {
     if (std::ranges::find(mask.values, 1) == mask.values.end()) {
         imported.notes.push_back(fmt::format("{} is empty", of.name.empty() ? "The mask" : of.name));
         return;
@@ -126,7 +126,7 @@ void add_to_correct(Imported& imported, const Mask& mask, Traced of) {
 }
 
 /// Adds what a mask becomes, or why it becomes nothing.
-void add_traced(Imported& imported, const Mask& mask, Traced of, const Upload& request) {
+void add_traced(ImportContent& imported, const Mask& mask, MaskOrigin of, const Upload& request) {
     if (request.purpose == Upload::Purpose::correct && !request.trace.preview)
         return add_to_correct(imported, mask, std::move(of));
     ContourSet set = traced(mask, request);
@@ -142,12 +142,12 @@ void add_traced(Imported& imported, const Mask& mask, Traced of, const Upload& r
 }
 
 /// Every segment of a DICOM segmentation, they may overlap.
-Imported read_segments_of(const fs::path& path, const Upload& request) {
+ImportContent read_segments_of(const fs::path& path, const Upload& request) {
     const auto [about, masks] = read_dicom_segments(path);
     if (about.segments.size() > kMostImportedLabels)
         throw Error(ErrorKind::too_large, fmt::format("the segmentation has {} segments; the limit is {}",
                                                       about.segments.size(), kMostImportedLabels));
-    Imported imported{{}, about.notes, about.frame_of_reference_uid, {}};
+    ImportContent imported{{}, about.notes, about.frame_of_reference_uid, {}};
     for (std::size_t n = 0; n < masks.size(); ++n) {
         const DicomSegment& segment = about.segments[n];
         const std::string name = segment.label.empty() ? fmt::format("Segment {}", segment.number) : segment.label;
@@ -158,7 +158,7 @@ Imported read_segments_of(const fs::path& path, const Upload& request) {
     return imported;
 }
 
-Imported read_contours_of(const fs::path& path, const Upload& request) {
+ImportContent read_contours_of(const fs::path& path, const Upload& request) {
     if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path);
     if (path.extension() == ".dcm" && is_dicom_seg(path)) return read_segments_of(path, request);
     ReadContours read = read_contours(path);
@@ -167,8 +167,8 @@ Imported read_contours_of(const fs::path& path, const Upload& request) {
 }
 
 /// What 3D Slicer's segmentations say of the labels of each of their layers, and NIfTI's table of the one layer there is.
-std::map<std::int64_t, std::map<std::int64_t, Traced>> named_layers(const fs::path& path) {
-    std::map<std::int64_t, std::map<std::int64_t, Traced>> layers;
+std::map<std::int64_t, std::map<std::int64_t, MaskOrigin>> named_layers(const fs::path& path) {
+    std::map<std::int64_t, std::map<std::int64_t, MaskOrigin>> layers;
     if (path.extension() == ".nii" || path.extension() == ".gz")
         for (const NamedLabel& label : read_nifti_labels(path))
             layers[0][label.label] = {label.name, StructureAttributes{.color = to_rgb8(label.color)}};
@@ -184,21 +184,21 @@ std::map<std::int64_t, std::map<std::int64_t, Traced>> named_layers(const fs::pa
 }
 
 /// Adds each label; false where there is none.
-bool add_labels(Imported& imported, const Image& labels, const std::map<std::int64_t, Traced>& named,
+bool add_labels(ImportContent& imported, const Image& labels, const std::map<std::int64_t, MaskOrigin>& named,
                 const Upload& request) {
     const auto counts = count_labels(labels, kMostImportedLabels);
     for (const auto& [label, voxels] : counts) {
         const auto known = named.find(label);
         const bool is_alone = counts.size() == 1;
-        Traced of = known == named.end() ? Traced{is_alone ? "" : fmt::format("Label {}", label)} : known->second;
+        MaskOrigin of = known == named.end() ? MaskOrigin{is_alone ? "" : fmt::format("Label {}", label)} : known->second;
         if (label > 0 && label <= kLargestLabelValue && !(is_alone && label == 1)) of.label_value = label;  // 1: any mask's
         add_traced(imported, select_label(labels, static_cast<double>(label)), std::move(of), request);
     }
     return !counts.empty();
 }
 
-Imported read_mask_of(const fs::path& path, const Upload& request) {
-    Imported imported;
+ImportContent read_mask_of(const fs::path& path, const Upload& request) {
+    ImportContent imported;
     bool has_labels = false;
     const auto layers = named_layers(path);
     for (const auto& [layer, named] : layers) {
@@ -214,8 +214,8 @@ Imported read_mask_of(const fs::path& path, const Upload& request) {
 
 }  // namespace
 
-Imported read_import(const fs::path& path, const Upload& upload) {
-    Imported imported =
+ImportContent read_import(const fs::path& path, const Upload& upload) {
+    ImportContent imported =
         upload.content == Upload::Content::mask ? read_mask_of(path, upload) : read_contours_of(path, upload);
     if (path.extension() == ".dcm") imported.patient = patient_words(dicom_identity(path));
     return imported;

@@ -46,7 +46,7 @@ json written_masks(const ImportedMasks& masks) {
 
 json result_of(const Upload& upload) {
     const fs::path path = "upload" + upload.extension;
-    const Imported imported = read_import(path, upload);
+    const ImportContent imported = read_import(path, upload);
     for (std::size_t i = 0; i < imported.sets.size(); ++i) write_contours(fmt::format("{}.json", i), imported.sets[i]);
     return {{"sets", imported.sets.size()},
             {"notes", imported.notes},
@@ -79,7 +79,7 @@ json error_of(const Error& error, const Upload& upload) {
     throw Error(ErrorKind::corrupt_file, sentence);
 }
 
-Imported result_in(const fs::path& folder, int status, const Work& work) {
+ImportContent result_in(const fs::path& folder, int status, const Work& work) {
     std::error_code ignored;
     if (!fs::exists(folder / kResult, ignored)) {
         check_ended_in_time(status);
@@ -88,7 +88,7 @@ Imported result_in(const fs::path& folder, int status, const Work& work) {
     }
     const json result = json::parse(read_bytes(folder / kResult));
     if (result.contains("error")) fail(result["error"]);
-    Imported imported;
+    ImportContent imported;
     for (std::size_t i = 0; i < result.at("sets").get<std::size_t>(); ++i) {
         work.check();
         imported.sets.push_back(read_contours(folder / fmt::format("{}.json", i)).contours);
@@ -111,7 +111,7 @@ Imported result_in(const fs::path& folder, int status, const Work& work) {
 
 }  // namespace
 
-Imported import_apart(const std::string& bytes, const Upload& upload, const Work& work) {
+ImportContent import_apart(const std::string& bytes, const Upload& upload, const Work& work) {
     const TemporaryFolder folder;
     write_file_atomically(folder.path() / ("upload" + upload.extension), bytes);
     const int status = run_import_process(upload, folder.path(), work);

@@ -25,7 +25,7 @@ inline constexpr std::array kMaskEndings{".nii.gz", ".nii", ".seg.nrrd", ".nrrd"
 struct TraceRequest {
     int planes = 9;  ///< along each axis
     bool axial = true, sagittal = true, coronal = true;
-    bool preview = false;  ///< nothing comes in, and `Imported::traced` says what the planes keep
+    bool preview = false;  ///< nothing comes in, and `ImportContent::traced` says what the planes keep
 };
 
 /// A file that a page has sent.
@@ -62,7 +62,7 @@ struct TracedMask {
     double dice = 0;                      ///< of the two
 };
 
-struct Imported {
+struct ImportContent {
     std::vector<ContourSet> sets;          ///< one for each structure of the file; empty where it is a mask to be corrected
     std::vector<std::string> notes;        ///< how the file was read, for the user to see
     std::string frame_of_reference_uid{};  ///< "" when none is named
@@ -75,7 +75,7 @@ struct Imported {
 /// What the file holds, read by this program in a process of its own, with limits on memory and time: a file that crashes a
 /// reader, or makes it grow or run on, costs the import and nothing else. Throws the reader's error, and Error(corrupt_file)
 /// or Error(too_large) when that process ends otherwise; Error(cancelled) ends it at once.
-Imported import_apart(const std::string& bytes, const Upload& upload, const Work& work = {});
+ImportContent import_apart(const std::string& bytes, const Upload& upload, const Work& work = {});
 
 /// The word that makes this program that process; for `main`, before it reads its command line.
 inline constexpr const char* kImportWorker = "--import-worker";

@@ -221,25 +221,25 @@ bool reaches_into(const Grid& grid, const ContourSet& set) {
     }
 }
 
-/// Where masks are wanted, and whether surfaces are, too.
-struct Wanted {
+/// Where masks are asked for, and whether surfaces are, too.
+struct ExportTarget {
     const Image& image;
     const Grid& grid;
     bool mesh;
 };
 
 /// A mask with its corrections.
-FittedStructure corrected(const State& state, const Structure& structure, const Wanted& wanted, const Work& work) {
+FittedStructure corrected(const State& state, const Structure& structure, const ExportTarget& target, const Work& work) {
     FittedStructure one{structure, contour_set(state, structure.id), {}, false, {}};
     try {
         const Mask before = mask_of(state, structure)->mask();
-        const Image* shown = asked(state, wanted.image);
+        const Image* shown = asked(state, target.image);
         if (shown && is_label_map(*shown)) shown = nullptr;
         one.corrected = std::make_shared<const CorrectedMask>(correct({before, ExistingSurface(before, work), shown},
                                                                       corrections_of(one.set, *structure.mask),
                                                                       correct_options(*structure.mask), work));
-        one.made.mask = on_grid(one.corrected->mask, wanted.grid, work);
-        if (wanted.mesh) one.made.mesh = mesh_of(one.corrected->mask, work);
+        one.made.mask = on_grid(one.corrected->mask, target.grid, work);
+        if (target.mesh) one.made.mesh = mesh_of(one.corrected->mask, work);
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
     }
@@ -247,9 +247,9 @@ FittedStructure corrected(const State& state, const Structure& structure, const 
 }
 
 /// Adds the masks that are to be corrected, each at its place.
-void add_corrected(std::vector<FittedStructure>& all, const State& state, const Wanted& wanted, const Work& work) {
+void add_corrected(std::vector<FittedStructure>& all, const State& state, const ExportTarget& target, const Work& work) {
     for (const auto& [id, structure] : state.structures)
-        if (structure.mask) all.push_back(corrected(state, structure, wanted, work));
+        if (structure.mask) all.push_back(corrected(state, structure, target, work));
     std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
 }
 
@@ -328,7 +328,8 @@ FittedStructure fit_structure(const State& state, Id structure, const Image& ima
     const bool is_alone = std::all_of(state.contours.begin(), state.contours.end(),
                                       [&](const auto& item) { return item.second->structure == structure; });
     if (!state.borders.shared || is_alone || set.contours.empty()) {
-        const SegmentOptions options{.smoothing = structure_of(state, structure).smoothing, .mesh = with_mesh, .drawn_on = image.grid};
+        const SegmentOptions options{
+            .smoothing = structure_of(state, structure).smoothing, .mesh = with_mesh, .drawn_on = image.grid};
         Segmentation made = segment(set, image.grid, asked(state, image), options, work);
         return {structure_of(state, structure), std::move(set), std::move(made)};
     }

@@ -33,9 +33,10 @@ struct ImageReference {
 };
 
 /// A project's image is not where it was.
-class ImageMoved : public Error {
+class ImageNotFound : public Error {
 public:
-    ImageMoved(const std::string& sentence, std::string image) : Error(ErrorKind::io, sentence), image_(std::move(image)) {}
+    ImageNotFound(const std::string& sentence, std::string image)
+        : Error(ErrorKind::io, sentence), image_(std::move(image)) {}
     const std::string& image() const { return image_; }
 
 private:

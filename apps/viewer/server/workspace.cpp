@@ -194,7 +194,7 @@ void Workspace::read(const Open& open, const std::function<void(std::exception_p
     } catch (const UnevenSlicesError& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what(), {{"uneven", true}});
-    } catch (const ImageMoved& error) {
+    } catch (const ImageNotFound& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what(), {{"moved", error.image()}});
     } catch (const Error& error) {

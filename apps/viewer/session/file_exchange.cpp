@@ -108,7 +108,7 @@ std::string without_ending(const std::string& file, const std::string& ending) {
 }
 
 /// Contours that fill each of their slices are a mask; others stay contours, with a note.
-void make_masks(Imported& imported, const Grid& grid) {
+void make_masks(ImportContent& imported, const Grid& grid) {
     for (std::size_t n = 0; n < imported.sets.size(); ++n) {
         ContourSet& set = imported.sets[n];
         if (imported.masks.contains(n) || set.contours.empty()) continue;
@@ -134,7 +134,7 @@ void make_masks(Imported& imported, const Grid& grid) {
 }
 
 /// As contours that can be compared with the image: of a mask the corners of its box.
-std::vector<ContourSet> extents_of(const Imported& imported) {
+std::vector<ContourSet> extents_of(const ImportContent& imported) {
     std::vector<ContourSet> sets = imported.sets;
     for (const auto& [place, one] : imported.masks) {
         const IndexBox& box = one.mask->box();
@@ -149,7 +149,7 @@ std::vector<ContourSet> extents_of(const Imported& imported) {
 }
 
 /// With a note for each.
-void leave_out_taken_labels(Imported& imported, const State& state) {
+void leave_out_taken_labels(ImportContent& imported, const State& state) {
     std::erase_if(imported.label_values, [&](const auto& item) {
         const Structure* const owner = owner_of_label(state, item.second, 0);
         if (owner)
@@ -200,7 +200,7 @@ Download exported(SessionState& s, const std::string& name, std::optional<Id> st
 ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
     const StatusLine line(s.pages.status_teller(), "Importing");
     const Work work{.stop = stop};
-    Imported imported = import_apart(bytes, upload, work);
+    ImportContent imported = import_apart(bytes, upload, work);
     work.check();
     const std::string unnamed = without_ending(upload.file, upload.extension);
     for (ContourSet& set : imported.sets)

@@ -141,7 +141,7 @@ void BorderSharing::take_lattice_around(const Surfaces& all) {
     unions_.clear();
 }
 
-BorderSharing::Parted BorderSharing::parted(const Surfaces& all, const Borders& borders, const Work& work) {
+BorderSharing::UnionPartition BorderSharing::parted(const Surfaces& all, const Borders& borders, const Work& work) {
     take_lattice_around(all);
     std::vector<Id> ids;
     SingleFits fits;
@@ -151,7 +151,7 @@ BorderSharing::Parted BorderSharing::parted(const Surfaces& all, const Borders& 
         fits.functions.push_back(one->function);
         fits.masks.push_back(mask_of(*one, work));
     }
-    Parted parted;
+    UnionPartition parted;
     const auto fit = [&](std::span<const std::size_t> group, const ContourSet& outlines) {
         std::vector<Id> members;
         for (const std::size_t n : group) members.push_back(ids[n]);
@@ -176,8 +176,8 @@ const LoneSurface* BorderSharing::refitted(const LoneSurface& alone, const std::
     return &known.made;
 }
 
-BorderSharing::Surfaces BorderSharing::with_borrowed_borders(const Surfaces& all, const Parted& alone, const Work& work,
-                                                             const Refit& refit) {
+BorderSharing::Surfaces BorderSharing::with_borrowed_borders(const Surfaces& all, const UnionPartition& alone,
+                                                             const Work& work, const Refit& refit) {
     Surfaces made = all;
     for (const auto& [group, function] : alone.unions) {
         Neighbours neighbours;
@@ -210,7 +210,7 @@ std::vector<BorderPair> BorderSharing::pairs_of(const Surfaces& all, const Parti
 
 SharedBorders BorderSharing::shared_anew(Surfaces all, const Borders& borders, const Work& work, const Refit& refit) {
     std::erase_if(masks_, [](const auto& known) { return known.first.use_count() == 1; });  // nobody else has it any more
-    Parted now = parted(all, borders, work);
+    UnionPartition now = parted(all, borders, work);
     if (Surfaces borrowed = refit ? with_borrowed_borders(all, now, work, refit) : all; borrowed != all) {
         all = std::move(borrowed);
         now = parted(all, borders, work);

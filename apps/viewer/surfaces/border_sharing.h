@@ -63,15 +63,15 @@ private:
         LoneSurface made;
     };
     using Surfaces = std::vector<const LoneSurface*>;
-    struct Parted {
+    struct UnionPartition {
         Partition parts;
         std::map<std::vector<std::size_t>, ImplicitFunction> unions;  ///< by the numbers of those that touch
     };
 
     SharedBorders shared_anew(Surfaces all, const Borders& borders, const Work& work, const Refit& refit);
     void take_lattice_around(const Surfaces& all);
-    Parted parted(const Surfaces& all, const Borders& borders, const Work& work);
-    Surfaces with_borrowed_borders(const Surfaces& all, const Parted& alone, const Work& work, const Refit& refit);
+    UnionPartition parted(const Surfaces& all, const Borders& borders, const Work& work);
+    Surfaces with_borrowed_borders(const Surfaces& all, const UnionPartition& alone, const Work& work, const Refit& refit);
     const LoneSurface* refitted(const LoneSurface& alone, const std::vector<SurfacePoint>& borrowed, const Work& work,
                                 const Refit& refit);
     const BoxedMask& mask_of(const LoneSurface& surface, const Work& work);

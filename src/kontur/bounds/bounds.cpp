@@ -13,11 +13,11 @@ namespace kontur {
 
 Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
     const std::vector<DrawnRegion> regions = drawn_regions(planes, work);
-    struct Found {
+    struct RegionBounds {
         std::vector<Bound> bounds[3];
         bool is_guess[2] = {};
     };
-    std::vector<Found> found(regions.size());
+    std::vector<RegionBounds> found(regions.size());
     parallel_for(static_cast<std::int64_t>(regions.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
             found[r].bounds[0] = plane_bounds(planes, regions, r);

@@ -44,7 +44,7 @@ struct Triharmonic {
 struct Biharmonic {
     [[gnu::always_inline]] static double at(double, double r) { return r; }
 };
-struct Screened {
+struct ScreenedNear {
     [[gnu::always_inline]] static double at(double r2, double r) {
         double even, odd, value;
         screened_halves(kScreenedValue, r2, even, odd);
@@ -61,7 +61,7 @@ KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic(const Sources& s, const Lanes&
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_screened(const Sources& s, const Lanes& t, double* __restrict out) {
-    sum_terms<Screened>(s, t, out);
+    sum_terms<ScreenedNear>(s, t, out);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_screened_far(const Sources& s, const Lanes& t, double* __restrict out) {

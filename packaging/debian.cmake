@@ -15,6 +15,8 @@ endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Only the reference solvers load it, when they run, which dpkg-shlibdeps cannot see.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS libopenblas0)
 
 set(CPACK_DEBIAN_COMMAND_LINE_PACKAGE_NAME kontur)
 set(CPACK_DEBIAN_COMMAND_LINE_PACKAGE_RECOMMENDS fonts-dejavu-core)
@@ -41,7 +43,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-kontur)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # A module is made for one version of Python.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-    "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${Python_NEXT_MINOR}), python3-numpy")
+    "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${Python_NEXT_MINOR}), python3-numpy, libopenblas0")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/python3-kontur/prerm)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS fonts-dejavu-core)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION} (Python package)\nThe Python package.")

@@ -42,6 +42,14 @@ def test_mask_lies_on_the_images_grid_and_is_the_ball(folder):
     assert dice(mask, ball_array()) > 0.995
 
 
+def test_only_a_reference_solver_loads_openblas(folder):
+    for solver, loads in (("iterative", False), ("cholesky", True)):
+        result = subprocess.run([KONTUR, "segment", *FROM_IMAGE, "--solver", solver, "--quiet"], cwd=folder, check=True,
+                                env={**os.environ, "LD_DEBUG": "files"}, capture_output=True, text=True)
+        assert "libc.so.6" in result.stderr
+        assert ("openblas" in result.stderr) == loads, solver
+
+
 def test_all_outputs_and_the_report(folder):
     text = segment(folder, *FROM_IMAGE, "--mesh", "out.stl", "--picture", "out.png", "--report", "out.json")
     assert names(folder) == ["ball.json", "image.nii.gz", "out.json", "out.nii.gz", "out.png", "out.stl"]

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <lapacke.h>
-
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
-#include "kontur/solve/blas_threads.h"
+#include "kontur/solve/blas.h"
 #include "kontur/solve/linear_system.h"
 
 namespace kontur {
@@ -91,12 +90,21 @@ void fill(TiledMatrix& a, const Entry& entry, const Work& work) {
     });
 }
 
-void factorise(TiledMatrix& a, const Work& work) {
+bool has_nan(const double* tile, int rows) {
+    for (int j = 0; j < rows; ++j)
+        for (int i = j; i < rows; ++i)
+            if (std::isnan(tile[i + j * kLead])) return true;
+    return false;
+}
+
+void factorise(const SingleThreadedBlas& blas, TiledMatrix& a, const Work& work) {
     for (std::size_t k = 0; k < a.tiles(); ++k) {
         work.report("solve", static_cast<double>(k) / static_cast<double>(a.tiles()));
         const int nk = a.rows(k);
-        const lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', nk, a.tile(k, k), kLead);
-        if (info < 0) throw Error(ErrorKind::singular_system, "the reduced system has entries that are not finite");
+        if (has_nan(a.tile(k, k), nk))
+            throw Error(ErrorKind::singular_system, "the reduced system has entries that are not finite");
+        int info = 0;
+        blas->dpotrf("L", &nk, a.tile(k, k), &kLead, &info, 1);
         if (info > 0)
             throw Error(ErrorKind::singular_system, "the reduced system is not positive definite at row " +
                                                         std::to_string(a.begin(k) + static_cast<std::size_t>(info)) +
@@ -104,7 +112,7 @@ void factorise(TiledMatrix& a, const Work& work) {
         const auto below = static_cast<std::int64_t>(a.tiles() - k - 1);
         parallel_for(below, 1, work, [&](std::int64_t first, std::int64_t last) {
             for (auto i = k + 1 + static_cast<std::size_t>(first); i < k + 1 + static_cast<std::size_t>(last); ++i)
-                cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, a.rows(i), nk, 1.0,
+                blas->dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, a.rows(i), nk, 1.0,
                             a.tile(k, k), kLead, a.tile(i, k), kLead);
         });
         // Tile (i, j) of the trailing triangle, numbered row by row.
@@ -116,29 +124,29 @@ void factorise(TiledMatrix& a, const Work& work) {
                 const auto i = k + 1 + static_cast<std::size_t>(r);
                 const auto j = k + 1 + static_cast<std::size_t>(t - r * (r + 1) / 2);
                 if (i == j)
-                    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, a.rows(i), nk, -1.0, a.tile(i, k), kLead, 1.0,
+                    blas->dsyrk(CblasColMajor, CblasLower, CblasNoTrans, a.rows(i), nk, -1.0, a.tile(i, k), kLead, 1.0,
                                 a.tile(i, i), kLead);
                 else
-                    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, a.rows(i), a.rows(j), nk, -1.0, a.tile(i, k), kLead,
+                    blas->dgemm(CblasColMajor, CblasNoTrans, CblasTrans, a.rows(i), a.rows(j), nk, -1.0, a.tile(i, k), kLead,
                                 a.tile(j, k), kLead, 1.0, a.tile(i, j), kLead);
             }
         });
     }
 }
 
-void substitute(TiledMatrix& a, std::vector<double>& x) {
+void substitute(const SingleThreadedBlas& blas, TiledMatrix& a, std::vector<double>& x) {
     for (std::size_t k = 0; k < a.tiles(); ++k) {
         for (std::size_t j = 0; j < k; ++j)
-            cblas_dgemv(CblasColMajor, CblasNoTrans, a.rows(k), a.rows(j), -1.0, a.tile(k, j), kLead, &x[a.begin(j)], 1, 1.0,
+            blas->dgemv(CblasColMajor, CblasNoTrans, a.rows(k), a.rows(j), -1.0, a.tile(k, j), kLead, &x[a.begin(j)], 1, 1.0,
                         &x[a.begin(k)], 1);
-        cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, a.rows(k), a.tile(k, k), kLead, &x[a.begin(k)],
+        blas->dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, a.rows(k), a.tile(k, k), kLead, &x[a.begin(k)],
                     1);
     }
     for (std::size_t k = a.tiles(); k-- > 0;) {
         for (std::size_t i = k + 1; i < a.tiles(); ++i)
-            cblas_dgemv(CblasColMajor, CblasTrans, a.rows(i), a.rows(k), -1.0, a.tile(i, k), kLead, &x[a.begin(i)], 1, 1.0,
+            blas->dgemv(CblasColMajor, CblasTrans, a.rows(i), a.rows(k), -1.0, a.tile(i, k), kLead, &x[a.begin(i)], 1, 1.0,
                         &x[a.begin(k)], 1);
-        cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, a.rows(k), a.tile(k, k), kLead, &x[a.begin(k)], 1);
+        blas->dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, a.rows(k), a.tile(k, k), kLead, &x[a.begin(k)], 1);
     }
 }
 
@@ -153,14 +161,14 @@ std::array<double, 4> polynomial_of(const LinearSystem& system, const ReducedBas
     return linear_through(system.centers, basis.spread, left);
 }
 
-Coefficients solve_definite(const LinearSystem& system, const Work& work) {
+Coefficients solve_definite(const SingleThreadedBlas& blas, const LinearSystem& system, const Work& work) {
     TiledMatrix matrix(system.size());
     fill(
         matrix, [&](std::size_t i, std::size_t j) { return system.entry(i, j); }, work);
-    factorise(matrix, work);
+    factorise(blas, matrix, work);
     Coefficients c;
     c.weights = system.values;
-    substitute(matrix, c.weights);
+    substitute(blas, matrix, c.weights);
     c.matrix_mb = matrix.megabytes();
     return c;
 }
@@ -168,14 +176,14 @@ Coefficients solve_definite(const LinearSystem& system, const Work& work) {
 }  // namespace
 
 Coefficients solve_cholesky(const LinearSystem& system, const Work& work) {
-    const SingleThreadedBlas guard;
-    if (system.kernel == Kernel::screened) return solve_definite(system, work);
+    const SingleThreadedBlas blas;
+    if (system.kernel == Kernel::screened) return solve_definite(blas, system, work);
     const double sign = kernel_sign(system.kernel);
     const ReducedBasis basis(system);
     TiledMatrix matrix(basis.rest.size());
     fill(
         matrix, [&](std::size_t i, std::size_t j) { return sign * basis.entry(system, i, j); }, work);
-    factorise(matrix, work);
+    factorise(blas, matrix, work);
 
     std::vector<double> v(basis.rest.size());
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -183,7 +191,7 @@ Coefficients solve_cholesky(const LinearSystem& system, const Work& work) {
         for (std::size_t m = 0; m < 4; ++m) v[i] -= basis.lagrange[i][m] * system.values[basis.spread[m]];
         v[i] *= sign;
     }
-    if (!v.empty()) substitute(matrix, v);
+    if (!v.empty()) substitute(blas, matrix, v);
 
     Coefficients c;
     c.weights.assign(system.size(), 0.0);

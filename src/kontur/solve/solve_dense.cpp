@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <lapacke.h>
+#include <algorithm>
+#include <cmath>
 
 #include "kontur/base/error.h"
-#include "kontur/solve/blas_threads.h"
+#include "kontur/solve/blas.h"
 #include "kontur/solve/linear_system.h"
 
 namespace kontur {
 
 Coefficients solve_dense(const LinearSystem& system) {
-    const SingleThreadedBlas guard;
+    const SingleThreadedBlas blas;
     const std::size_t polynomials = system.kernel == Kernel::screened ? 0 : 4;
     const std::size_t k = system.size(), n = k + polynomials;
     std::vector<double> matrix(n * n, 0.0);  // column major; dsysv reads the lower triangle
@@ -24,11 +25,23 @@ Coefficients solve_dense(const LinearSystem& system) {
     std::vector<double> right = system.values;
     right.resize(n, 0.0);
 
-    std::vector<lapack_int> pivots(n);
-    const auto order = static_cast<lapack_int>(n);
-    const lapack_int info =
-        LAPACKE_dsysv(LAPACK_COL_MAJOR, 'L', order, 1, matrix.data(), order, pivots.data(), right.data(), order);
-    if (info < 0) throw Error(ErrorKind::singular_system, "the linear system has entries that are not finite");
+    const auto is_nan = [](double v) { return std::isnan(v); };
+    if (std::ranges::any_of(matrix, is_nan) || std::ranges::any_of(right, is_nan))
+        throw Error(ErrorKind::singular_system, "the linear system has entries that are not finite");
+
+    std::vector<int> pivots(n);
+    const auto order = static_cast<int>(n);
+    const int one = 1, ask = -1;
+    int info = 0;
+    double best_size = 0;
+    const auto solve = [&](double* work, const int* work_size) {
+        blas->dsysv("L", &order, &one, matrix.data(), &order, pivots.data(), right.data(), &order, work, work_size, &info,
+                    1);
+    };
+    solve(&best_size, &ask);
+    const auto work_size = static_cast<int>(best_size);
+    std::vector<double> work(static_cast<std::size_t>(work_size));
+    solve(work.data(), &work_size);
     if (info > 0)
         throw Error(ErrorKind::singular_system, "the linear system is singular (dsysv stopped at pivot " +
                                                     std::to_string(info) + " of " + std::to_string(n) + ")");

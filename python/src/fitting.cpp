@@ -85,6 +85,9 @@ Keywords<FitOptions> fit_keywords() {
                "On tolerance_mm, in the rounds before the last.")
         .field("tilt_points", &FitOptions::tilt_points, "About how many of the points take part in these rounds.")
         .field("most_points", &FitOptions::most_points, "The last fit uses about as many points; 0: all.")
+        .field("line_tolerance_mm", &FitOptions::line_tolerance_mm,
+               "Points that the others of their line show as exactly as this are left out; 0: none; None: 1e-4 of the "
+               "diameter.")
         .field("most_solves", &FitOptions::most_solves,
                "At most so many with all points, while other bounds should be held than were; 1: whatever is held.")
         .field("normal_offset_mm", &FitOptions::normal_offset_mm,

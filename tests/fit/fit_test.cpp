@@ -123,10 +123,48 @@ TEST(Fit, RefusesToHoldABoundThatIsNotThere) {
     }
 }
 
+TEST(Fit, OfSmoothLinesTakesFewPointsAndMissesNone) {
+    for (const char* name : {"liver_oblique10", "kidney_radial6", "metastasis_parallel17"}) {
+        const PhantomCase c = phantom_case(name);
+        const PreparedContours prepared = prepare(c.contours);
+        FitOptions options = options_for(c);
+        const double tolerance_mm = 1e-4 * prepared.ball.diameter();
+        const FittedFunction few = fit(prepared, options);
+        options.line_tolerance_mm = 0;
+        const FittedFunction all = fit(prepared, options);
+        EXPECT_LT(2 * few.constraints, all.constraints) << name;
+        EXPECT_EQ(few.solves, all.solves) << name << ": the first try is the last";
+        for (const BoundaryPoint& point : prepared.points) {
+            EXPECT_LT(std::abs(few.function.value(point.position)), 3 * tolerance_mm) << name;
+            const Vec3 beside = point.position + 2.0 * point.plane_normal;
+            EXPECT_NEAR(few.function.value(beside), all.function.value(beside), 0.05) << name;
+        }
+    }
+}
+
+TEST(Fit, TakesAllPointsWhereFewMissOneOrAnUnsteadyHandDrew) {
+    const PhantomCase c = phantom_case("kidney_radial6_hand");
+    const PreparedContours prepared = prepare(c.contours);
+    FitOptions options = options_for(c);
+    options.line_tolerance_mm = 0;
+    const FittedFunction all = fit(prepared, options);
+    for (const double share : {1e-4, 1e-3}) {
+        options.line_tolerance_mm = share * prepared.ball.diameter();
+        const FittedFunction fitted = fit(prepared, options);
+        EXPECT_EQ(fitted.constraints, all.constraints) << share;
+        EXPECT_EQ(fitted.full_solves, all.full_solves) << share;
+        EXPECT_EQ(fitted.solves, all.solves + (share == 1e-3 ? 1 : 0)) << share << ": one is tried for nothing, or none";
+        for (const BoundaryPoint& point : prepared.points)
+            EXPECT_NEAR(fitted.function.value(point.position), all.function.value(point.position),
+                        4 * *resolved(options.solve, prepared.ball.diameter()).tolerance_mm);
+    }
+}
+
 TEST(Fit, FewIterationsOnThePapersLargestCase) {
     const PhantomCase c = phantom_case("liver_orthogonal14");
     FitOptions options = options_for(c);
     options.rounds = 1;
+    options.line_tolerance_mm = 0;
     const FittedFunction fitted = fit(prepare(c.contours), options);
     EXPECT_GT(fitted.constraints, 13000u);
     EXPECT_LE(fitted.iterations, 15 * fitted.solves);

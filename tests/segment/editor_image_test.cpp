@@ -204,7 +204,8 @@ ContourSet finer(ContourSet contours, int times) {
             for (int part = 0; part < times; ++part) {
                 const double along = double(part) / times;
                 points.push_back(from + along * (to - from) +
-                                 0.02 * along * (1 - along) * cross(contour.plane.normal, to - from));
+                                 (0.02 * along * (1 - along) + (part % 2 == 0 ? 0.0 : 0.01)) *
+                                     cross(contour.plane.normal, to - from));
             }
         }
         contour.points = std::move(points);

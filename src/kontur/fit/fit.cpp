@@ -15,6 +15,7 @@
 #include "kontur/bounds/clicks.h"
 #include "kontur/fit/active_bounds.h"
 #include "kontur/fit/click_guards.h"
+#include "kontur/fit/telling_points.h"
 #include "kontur/fit/thin.h"
 #include "kontur/fit/tilt_trust.h"
 
@@ -24,7 +25,9 @@ namespace {
 // Where they are not given; docs/decisions/0001-surface-normals.md has the measurements.
 constexpr double kOffsetFraction = 1.35e-2;  // of the drawing's diameter: normal constraints on both sides, soft
 constexpr double kSpacingOfOffset = 0.75;    // from one to the next along a line at least; a third more on average
-constexpr double kSlopeNoise = 0.21;         // what the tilt of an organ's surface is known to
+// Of the drawing's diameter. Half of it keeps a tenth more points, three times as much changes a mask by .0002.
+constexpr double kLineTolerance = 1e-4;
+constexpr double kSlopeNoise = 0.21;  // what the tilt of an organ's surface is known to
 
 /// Cosine of the angle between the surface's normal and the contour's plane.
 double slope(const BoundaryPoint& point, const Vec3& gradient, double least_slope) {
@@ -57,6 +60,12 @@ PlacedConstraints in_order_of_place(PlacedConstraints placement) {
     return placement;
 }
 
+/// Points of which none stands for more of its line than another.
+TellingPoints equally(std::vector<std::size_t> numbers) {
+    std::vector<double> weights(numbers.size(), 1.0);
+    return {std::move(numbers), std::move(weights)};
+}
+
 double mean_change_degrees(const std::vector<double>& before, const std::vector<double>& after) {
     double change = 0;
     for (std::size_t i = 0; i < after.size(); ++i)
@@ -73,6 +82,12 @@ constexpr double kSettlingTolerance = 3;
 // let go of: which ones are held else depends on the way there, and the volume jumps where that is another. All points are
 // not worth another solve for it: what is left lies far from the surface, which moves by a hundredth of a millimetre.
 constexpr double kCountsSettling = 0.03, kCountsHeld = 0.5;
+
+// Of the points, how many may tell the lines for a fit by them to be tried. An unsteady hand's are nine tenths, those of
+// smooth lines a third at most.
+constexpr double kWorthTrying = 0.5;
+// Of the tolerance, by how much f may miss a point that took no part: it misses one in a thousand by as much.
+constexpr double kMostMissed = 2;
 
 /// The solves of one fit, with what they share and what they leave behind.
 class Solves {
@@ -96,8 +111,7 @@ public:
             bounds_.hold(options_.start_bounds);
         }
         progress_ = {progress_.end, 1.0};
-        for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves;)
-            other_bounds = solve_part(part, 1, kCountsHeld, ++result_.full_solves == options_.most_solves);
+        if (!solve_few()) solve_until_settled(equally(part));
         return std::move(result_);
     }
 
@@ -131,21 +145,41 @@ private:
     /// Finds which bounds a fit of so many points leans on, from half as many at most: that fit is repeated less often then.
     void settle_bounds(std::size_t part_size) {
         if (!bounds_.holds_any() || options_.most_solves == 1) return;
-        const std::vector<std::size_t> part = thin(all_, std::clamp(part_size / 2, std::size_t{1}, options_.tilt_points));
+        const TellingPoints part = equally(thin(all_, std::clamp(part_size / 2, std::size_t{1}, options_.tilt_points)));
         for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance, kCountsSettling);) ++solve;
+    }
+
+    /// The fit by the points that tell the lines; false where they are too many to be worth a try, or do not tell them.
+    bool solve_few() {
+        if (options_.most_points > 0 || *options_.line_tolerance_mm == 0) return false;
+        const TellingPoints telling = telling_points(all_, *options_.line_tolerance_mm);
+        if (static_cast<double>(telling.numbers.size()) > kWorthTrying * static_cast<double>(all_.size())) return false;
+        solve_until_settled(telling);
+        std::vector<Vec3> positions(all_.size());
+        std::ranges::transform(all_, positions.begin(), &BoundaryPoint::position);
+        std::vector<double> values(all_.size());
+        result_.function.values(positions, values, work_);
+        if (tell_the_rest(telling, all_, values, kMostMissed * *options_.line_tolerance_mm)) return true;
+        result_.full_solves = 0;
+        return false;
+    }
+
+    void solve_until_settled(const TellingPoints& telling) {
+        for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves;)
+            other_bounds = solve_part(telling, 1, kCountsHeld, ++result_.full_solves == options_.most_solves);
     }
 
     /// The fit with the slopes that were found, from a part of the points; true if other bounds should have been held, which
     /// is not asked of the last one: bounds are many.
-    bool solve_part(const std::vector<std::size_t>& part, double tolerance_factor, double held_counts,
-                    bool is_last = false) {
-        const std::vector<BoundaryPoint> points = pick(all_, part);
+    bool solve_part(const TellingPoints& part, double tolerance_factor, double held_counts, bool is_last = false) {
+        std::vector<BoundaryPoint> points = pick(all_, part.numbers);
+        for (std::size_t i = 0; i < points.size(); ++i) points[i].trust *= part.weights[i];
         SolveOptions solving = options_.solve;
         *solving.smoothing *= share(points);
         *solving.tolerance_mm *= tolerance_factor;
         PlaceOptions placing = place_;
         placing.slope_noise *= std::sqrt(share(points));
-        solve_for(points, pick(result_.slopes, part), placing, solving);
+        solve_for(points, pick(result_.slopes, part.numbers), placing, solving);
         return !is_last && bounds_.update(result_.function, 2 * *solving.tolerance_mm, held_counts, work_);
     }
 
@@ -223,6 +257,7 @@ void check_fit_options(const FitOptions& options, std::size_t points) {
         throw Error(ErrorKind::invalid_input,
                     fmt::format("the least slope is {:g}; it must be in (0, 1]", options.least_slope));
     check_above_0("the early tolerance's factor", options.early_tolerance_factor);
+    if (options.line_tolerance_mm) check_not_below_0("the lines' tolerance", *options.line_tolerance_mm, " mm");
     if (options.tilt_points < 1)
         throw Error(ErrorKind::invalid_input, "the tilts are to be found from 0 points; at least 1 is needed");
     if (!options.start_slopes.empty()) check_slopes(options.start_slopes, points);
@@ -240,6 +275,8 @@ FitOptions resolved(FitOptions options, double diameter_mm) {
     options.merge_distance_mm = options.merge_distance_mm.value_or(kMergeFraction * diameter_mm);
     if (!is_surface) options.solve.smoothing = options.solve.smoothing.value_or(0.0);
     options.solve = resolved(options.solve, diameter_mm);
+    const bool may_leave_out = is_surface && *options.solve.smoothing > 0;
+    options.line_tolerance_mm = options.line_tolerance_mm.value_or(may_leave_out ? kLineTolerance * diameter_mm : 0);
     check_place_options(place_options(options));
     return options;
 }

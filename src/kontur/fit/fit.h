@@ -23,6 +23,10 @@ struct FitOptions {
     std::vector<double> start_slopes{};  ///< surface normals: known slopes, one per boundary point; empty: all 1
     std::vector<std::size_t> start_bounds{};  ///< without rounds: the bounds at which f is held in the first solve
     std::size_t most_points = 0;              ///< the last fit uses about as many points; 0: all
+    /// Without `most_points`: the last fit leaves out points that the others of their line show as exactly as this, and all
+    /// points take part where it misses one of them by twice as much. 0: none; unset: 1e-4 of the drawing's diameter with
+    /// surface normals and smoothing, else 0.
+    std::optional<double> line_tolerance_mm{};
     int most_solves = 2;  ///< with all points, while other bounds should be held than were; 1: whatever is held
     /// Length d > 0 of the normal constraints; unset: 1.35 % of the drawing's diameter, with in-plane normals 0.45 %.
     std::optional<double> normal_offset_mm{};

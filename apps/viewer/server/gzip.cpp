@@ -6,11 +6,11 @@
 namespace kontur::viewer {
 
 std::string gzipped(std::string_view bytes) {
-    constexpr int kQuickest = 1;
     std::string packed;
     Deflater deflater(
         DeflateFormat::gzip,
-        [&](const void* data, std::size_t count) { packed.append(static_cast<const char*>(data), count); }, kQuickest);
+        [&](const void* data, std::size_t count) { packed.append(static_cast<const char*>(data), count); },
+        DeflateMode::quick);
     deflater.write(std::as_bytes(std::span(bytes)));
     deflater.finish();
     return packed;

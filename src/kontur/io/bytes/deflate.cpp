@@ -12,6 +12,7 @@ namespace kontur {
 namespace {
 
 constexpr int kMaxMemoryLevel = 9;
+constexpr int kDenseLevel = 4, kQuickLevel = 1;
 
 int window_bits(DeflateFormat format) {
     constexpr int kGzip = 16;
@@ -25,9 +26,11 @@ struct Deflater::Stream {
     std::array<unsigned char, 1 << 16> out;
 };
 
-Deflater::Deflater(DeflateFormat format, Sink sink, int level)
+Deflater::Deflater(DeflateFormat format, Sink sink, DeflateMode mode)
     : stream_(std::make_unique<Stream>()), sink_(std::move(sink)) {
-    if (::deflateInit2(&stream_->z, level, Z_DEFLATED, window_bits(format), kMaxMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
+    const int level = mode == DeflateMode::quick ? kQuickLevel : kDenseLevel;
+    const int strategy = mode == DeflateMode::runs ? Z_RLE : Z_DEFAULT_STRATEGY;
+    if (::deflateInit2(&stream_->z, level, Z_DEFLATED, window_bits(format), kMaxMemoryLevel, strategy) != Z_OK)
         throw std::bad_alloc();
 }
 

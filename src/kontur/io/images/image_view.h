@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "kontur/io/bytes/deflate.h"
 #include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
 
@@ -43,5 +44,8 @@ inline std::span<const std::byte> bytes_of(const ImageView& image) {
     static_assert(std::endian::native == std::endian::little, "writers store samples as they lie in memory, little-endian");
     return std::visit([](const auto& values) { return std::as_bytes(values); }, image.samples);
 }
+
+/// `runs` for masks and label maps of one byte to a voxel: where neighbours along i mostly have the same value.
+DeflateMode deflate_mode(const ImageView& image);
 
 }  // namespace kontur

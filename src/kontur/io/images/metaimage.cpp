@@ -247,9 +247,10 @@ void write_metaimage(const fs::path& path, const ImageView& image) {
     check_grid(image.grid);
     // The header states the compressed size, so compression comes first.
     std::string compressed;
-    Deflater deflater(DeflateFormat::zlib, [&](const void* data, std::size_t count) {
-        compressed.append(static_cast<const char*>(data), count);
-    });
+    Deflater deflater(
+        DeflateFormat::zlib,
+        [&](const void* data, std::size_t count) { compressed.append(static_cast<const char*>(data), count); },
+        deflate_mode(image));
     deflater.write(bytes_of(image));
     deflater.finish();
     write_file_atomically(path, [&](AtomicFile& file) {

@@ -240,7 +240,8 @@ void write_mgh(const fs::path& path, const ImageView& image) {
     write_file_atomically(path, [&](AtomicFile& file) {
         if (lower_case(path.extension().string()) == ".mgh")
             return put_all([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); });
-        Deflater deflater(DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); });
+        Deflater deflater(
+            DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); }, deflate_mode(image));
         put_all([&](std::span<const std::byte> bytes) { deflater.write(bytes); });
         deflater.finish();
     });

@@ -307,7 +307,9 @@ void write_nifti(const fs::path& path, const ImageView& image) {
     bytes.insert(bytes.end(), extension.begin(), extension.end());
     write_file_atomically(path, [&](AtomicFile& file) {
         if (lower_case(path.extension().string()) == ".gz") {
-            Deflater deflater(DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); });
+            Deflater deflater(
+                DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); },
+                deflate_mode(image));
             deflater.write(std::as_bytes(std::span(bytes)));
             deflater.write(bytes_of(image));
             deflater.finish();

@@ -98,7 +98,8 @@ void write(const fs::path& path, const ImageView& image, const std::string& more
     check_grid(image.grid);
     write_file_atomically(path, [&](AtomicFile& file) {
         file.write(header_text(image) + more_lines + "\n");
-        Deflater deflater(DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); });
+        Deflater deflater(
+            DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); }, deflate_mode(image));
         deflater.write(bytes_of(image));
         deflater.finish();
     });

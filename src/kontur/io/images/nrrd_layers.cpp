@@ -86,7 +86,9 @@ void write_layers(const std::filesystem::path& path, std::span<const Mask> masks
     const char* type = std::is_same_v<Value, std::uint8_t> ? "uint8" : "uint16";
     write_file_atomically(path, [&](AtomicFile& file) {
         file.write(nrrd_header_text(masks[0].grid, type, layers.count(), provenance) + keys + "\n");
-        Deflater deflater(DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); });
+        Deflater deflater(
+            DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); },
+            sizeof(Value) == 1 ? DeflateMode::runs : DeflateMode::dense);
         layers.write(deflater);
         deflater.finish();
     });

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
+#include "kontur/base/parallel.h"
 #include "kontur/extract/tracker.h"
 
 namespace kontur {
@@ -54,7 +56,8 @@ std::vector<Index3> cells_around(const std::vector<Index3>& centers, const Index
 
 class Tracker {
 public:
-    Tracker(Lattice lattice, const EvaluatePoints& evaluate) : evaluate_(evaluate), surface_{std::move(lattice), {}, 0} {}
+    Tracker(Lattice lattice, const EvaluatePoints& evaluate, const Work& work)
+        : evaluate_(evaluate), work_(work), surface_{std::move(lattice), {}, 0} {}
 
     struct MixedCell {
         Index3 cell;
@@ -65,17 +68,24 @@ public:
     std::vector<MixedCell> keep_mixed(const std::vector<Index3>& cells) {
         std::vector<MixedCell> mixed;
         std::vector<Index3> incomplete;
-        const auto keep_if_mixed = [&](const Index3& c, const std::array<double, 8>& values) {
-            if (const unsigned inside = inside_corners(values); inside != 0 && inside != 0xffu) mixed.push_back({c, inside});
+        const auto keep_if_mixed = [&](const Index3& c, unsigned inside) {
+            if (inside != 0 && inside != 0xffu) mixed.push_back({c, inside});
         };
-        for (const Index3& c : cells) {
-            const std::array<double, 8> values = surface_.lattice.corners(c);
-            if (std::any_of(values.begin(), values.end(), [](double v) { return std::isnan(v); })) incomplete.push_back(c);
-            else keep_if_mixed(c, values);
-        }
+        constexpr std::uint16_t kIncomplete = 256;  // most cells are known as a whole, and are looked up beside each other
+        std::vector<std::uint16_t> corners(cells.size());
+        parallel_for(std::ssize(cells), 4096, work_, [&](std::int64_t begin, std::int64_t end) {
+            for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
+                const std::array<double, 8> values = surface_.lattice.corners(cells[n]);
+                const bool is_known = std::ranges::none_of(values, [](double v) { return std::isnan(v); });
+                corners[n] = is_known ? static_cast<std::uint16_t>(inside_corners(values)) : kIncomplete;
+            }
+        });
+        for (std::size_t n = 0; n < cells.size(); ++n)
+            if (corners[n] == kIncomplete) incomplete.push_back(cells[n]);
+            else keep_if_mixed(cells[n], corners[n]);
         if (incomplete.empty()) return mixed;
         evaluate_corners(incomplete);
-        for (const Index3& c : incomplete) keep_if_mixed(c, surface_.lattice.corners(c));
+        for (const Index3& c : incomplete) keep_if_mixed(c, inside_corners(surface_.lattice.corners(c)));
         return mixed;
     }
 
@@ -141,6 +151,7 @@ private:
     }
 
     const EvaluatePoints& evaluate_;
+    const Work& work_;
     SurfaceLattice surface_;
 };
 
@@ -158,7 +169,7 @@ void evaluate_in_batches(const ImplicitFunction& function, std::span<const Vec3>
     }
 }
 
-/// The cells that contain the points.
+/// The cells that contain the points, each once: points of a line are nearer to each other than voxels.
 std::vector<Index3> cells_at(const Grid& grid, std::span<const Vec3> points) {
     const Affine3 mm_to_index = grid.index_to_mm.inverse();
     std::vector<Index3> cells;
@@ -166,6 +177,9 @@ std::vector<Index3> cells_at(const Grid& grid, std::span<const Vec3> points) {
         const Vec3 at = mm_to_index.apply(p);
         if (fits_index(at)) cells.push_back(cell_of(at));
     }
+    std::ranges::sort(cells, {}, [](const Index3& c) { return std::tuple(c.k, c.j, c.i); });
+    const auto repeated = std::ranges::unique(cells);
+    cells.erase(repeated.begin(), repeated.end());
     return cells;
 }
 
@@ -186,7 +200,7 @@ Index3 farthest(const Grid& grid) {
 SurfaceLattice track_surface(Lattice lattice, const EvaluatePoints& evaluate, std::span<const Vec3> starts,
                              const Work& work) {
     const Grid grid = lattice.grid();
-    Tracker tracker(std::move(lattice), evaluate);
+    Tracker tracker(std::move(lattice), evaluate, work);
     // The start's own cell can miss the surface by smoothing or rounding, so its neighbours are looked at as well; on a
     // contour they are cells that the walk visits anyway.
     const std::vector<Index3> start_cells = cells_at(grid, starts);

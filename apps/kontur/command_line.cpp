@@ -458,7 +458,7 @@ void add_fill(CLI::App& app, Invocation& invocation) {
         ->needs(image);
     bind.option("--label", c.options.labels, "N", "Fill only this label; again for more [all]")->allow_extra_args(false);
     bind.sub->add_flag_callback(
-        "--alone", [&c] { c.options.jointly = false; }, "Each label for itself: no fit of touching labels together");
+        "--alone", [&c] { c.options.jointly = false; }, "Each label for itself: labels that touch are not taken together");
     add_fill_method(*bind.sub, c, '-');
     bind.option("--report", c.report, "FILE", "Report to write: .json");
     add_series_words(*bind.sub, c.series);

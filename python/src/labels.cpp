@@ -24,7 +24,7 @@ Keywords<FillOptions> fill_keywords() {
                "How far beyond the first and the last of parallel slices: not at all, half of a gap, or as far as the fit "
                "says.")
         .field("jointly", &FillOptions::jointly,
-               "Fit labels that touch also as one object, so that no gaps stay between them.")
+               "Take labels that touch also as one object, so that no gaps stay between them.")
         .field("shape_weight", &FillOptions::shape_weight,
                "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone.")
         .field("use_image", &FillOptions::use_image,

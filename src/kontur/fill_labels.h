@@ -25,8 +25,8 @@ std::string_view name(FillEnds ends) noexcept;
 
 struct FillOptions {
     FillEnds ends = FillEnds::closed;
-    /// Fit labels that touch each other also as one object, and give what that claims and none of them has to the nearest:
-    /// else gaps stay between them.
+    /// Take labels that touch each other also as one object, and give what that claims and none of them has to the nearest:
+    /// else gaps stay between them. Between parallel slices its shapes tell that object, elsewhere a fit of it.
     bool jointly = true;
     /// Between parallel slices, how far the shape-based interpolation counts beside the fit, from 0 to 1: the share where
     /// the slices are close for the thickness of the object; less where they are not (see ShapeInterpolation::trust).

@@ -161,10 +161,13 @@ private:
         std::erase_if(gaps, [&](const Index3& at) {
             return std::any_of(group.begin(), group.end(), [&](std::size_t s) { return masks_[s].contains(at); });
         });
-        give_gaps(group, {all.function, {}, reach_mm(outline, grid_)}, gaps);
+        const std::vector<Vec3> places = centers_mm(gaps);
+        give_gaps(group, reach_mm(outline, grid_), gaps, {places, depths_mm(all.function, places, work_)});
     }
 
-    void give_gaps(const std::vector<std::size_t>& group, TouchingStructures structures, const std::vector<Index3>& gaps) {
+    void give_gaps(const std::vector<std::size_t>& group, double reach_mm, const std::vector<Index3>& gaps,
+                   const GapPlaces& places) {
+        TouchingStructures structures{{}, reach_mm};
         const Vec3 spacing = grid_.spacing_mm();
         Index3 margin;  // farther from all of its voxels a structure is not within reach, and its f costs the most
         for (int axis = 0; axis < 3; ++axis)
@@ -180,7 +183,7 @@ private:
                 if (masks_[other].contains(gaps[gap]) && exclude(group[member], other)) return false;
             return true;
         };
-        const auto owners = owners_of_gaps(structures, centers_mm(gaps), may_own, work_);
+        const auto owners = owners_of_gaps(structures, places, may_own, work_);
         std::vector<std::vector<Index3>> voxels_of_member(group.size());
         for (std::size_t n = 0; n < gaps.size(); ++n)
             if (owners[n]) voxels_of_member[*owners[n]].push_back(gaps[n]), ++result_.closed_voxels;

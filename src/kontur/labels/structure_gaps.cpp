@@ -8,9 +8,9 @@
 
 namespace kontur {
 
-std::vector<std::optional<std::size_t>> owners_of_gaps(const TouchingStructures& structures,
-                                                       const std::vector<Vec3>& places_mm, const MayOwn& may_own,
-                                                       const Work& work) {
+std::vector<std::optional<std::size_t>> owners_of_gaps(const TouchingStructures& structures, const GapPlaces& gaps,
+                                                       const MayOwn& may_own, const Work& work) {
+    const std::vector<Vec3>& places_mm = gaps.places_mm;
     struct Nearest {
         std::optional<std::size_t> structure;
         double depth_mm = -std::numeric_limits<double>::infinity(), next_mm = depth_mm;
@@ -28,10 +28,10 @@ std::vector<std::optional<std::size_t>> owners_of_gaps(const TouchingStructures&
             else best.next_mm = std::max(best.next_mm, depths[m]);
         }
     }
-    const std::vector<double> in_all = depths_mm(structures.all, places_mm, work);
     std::vector<std::optional<std::size_t>> owners(places_mm.size());
     for (std::size_t n = 0; n < places_mm.size(); ++n)
-        if (nearest[n].next_mm > -structures.reach_mm && in_all[n] > -nearest[n].depth_mm) owners[n] = nearest[n].structure;
+        if (nearest[n].next_mm > -structures.reach_mm && gaps.in_union_mm[n] > -nearest[n].depth_mm)
+            owners[n] = nearest[n].structure;
     return owners;
 }
 

@@ -46,7 +46,7 @@ RESULTS = {
     "check_contours": "None", "check_contours_inside": "str or None", "corner_distance_mm": "float", "count_labels": "dict of int to int",
     "crossings": "ndarray", "dense_liver_case": "PhantomCase", "disagreement": "Disagreement",
     "disagreement_by_contour": "list of Disagreement", "encode_png": "bytes", "fill": "Mask", "find_crossings": "list of Crossing",
-    "fit_plane": "Plane or None", "is_dicom_seg": "bool", "is_rtstruct": "bool", "list_dicom_series": "list of DicomSeries",
+    "fit_plane": "Plane or None", "is_dicom_seg": "bool", "is_moving": "bool", "is_rtstruct": "bool", "list_dicom_series": "list of DicomSeries",
     "looks_like_dicom": "bool", "make_truth_mask": "Mask", "orient": "ContourOrientation", "phantom_bodies": "list of Body",
     "phantom_case": "PhantomCase", "phantom_case_names": "list of str", "phantom_volumes": "list of PhantomVolume", "points_outside": "int",
     "read_dicom_segmentation": "DicomSegmentation", "read_mesh": "TriangleMesh", "read_rtstruct": "StructureSet", "select_label": "Mask",
@@ -261,7 +261,8 @@ def class_lines(name, kind):
             lines += indented(["@overload", "def __getitem__(self, index: int) -> Contour: ...", "@overload",
                                "def __getitem__(self, index: slice) -> ContourSet: ..."])
         elif member == "__call__":
-            lines += indented(["def __call__(self, points: ArrayLike, threads: int = 0) -> NDArray[numpy.float64]: ..."])
+            time = "time: float, " if "time" in inspect.signature(value).parameters else ""
+            lines += indented([f"def __call__(self, points: ArrayLike, {time}threads: int = 0) -> NDArray[numpy.float64]: ..."])
         elif member.startswith("_"):
             continue
         elif isinstance(value, property):

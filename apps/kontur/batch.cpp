@@ -127,7 +127,8 @@ double wrong_share_of(const Facts& figures) { return figures.at("section_check")
 /// What the summary says of a case, from the report that `segment` wrote: of each structure, where it made several.
 Facts figures_of(const Facts& report) {
     Facts facts;
-    for (const char* key : {"mask", "residual_mm", "section_check", "uncertainty", "derived", "warnings"})
+    for (const char* key : {"mask", "residual_mm", "section_check", "uncertainty", "derived", "warnings", "volumes_ml",
+                            "stroke_ml", "ejection_fraction"})
         if (report.contains(key)) facts[key] = report[key];
     if (!report.contains("structures")) return facts;
     Facts structures = Facts::array(), warnings = Facts::array();

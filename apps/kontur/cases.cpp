@@ -85,7 +85,7 @@ void add_option(Case& one, const OptionName& option, const std::string& value) {
     for (const std::string& word : values) one.options.push_back(fmt::format("--{}={}", option.name, word));
     if (is_one_of(option.name, {"image", "rules"})) one.inputs.emplace_back(value);
     one.has_rules |= option.name == "rules";
-    if (is_one_of(option.name, {"output", "rtstruct", "mesh", "picture", "uncertainty", "report"}))
+    if (is_one_of(option.name, {"output", "rtstruct", "mesh", "picture", "uncertainty", "volumes", "report"}))
         one.outputs.emplace_back(value);
     if (option.name == "output") one.output = value;
     if (option.name == "report") one.report = value;

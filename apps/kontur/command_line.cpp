@@ -258,6 +258,10 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.option("--uncertainty", c.uncertainty, "FILE",
                 "Half width in mm of the 90 % band to write, for 3 planes and more: .ply, or an image at the mask's border");
     bind.option("--report", c.report, "FILE", "Report to write: .json");
+    bind.option("--volumes", c.volumes, "FILE", "Volume in each frame of a 4D --image to write: .csv (docs/moving.md)");
+    bind.option("--cycle", c.cycle, "T",
+                "Contours of several moments: the motion repeats after so many frames, or seconds [as the contours say]")
+        ->check(CLI::PositiveNumber);
     bind.option("--roi", c.rois, "NAME",
                 "Which structure of an RTSTRUCT, by name or number; again for more, which become the labels 1, 2, ...")
         ->allow_extra_args(false);

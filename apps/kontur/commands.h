@@ -43,11 +43,13 @@ struct SegmentCommand {
     std::filesystem::path output;
     std::filesystem::path rtstruct, mesh, picture, report;  ///< empty: not asked for
     std::filesystem::path uncertainty;                      ///< half widths of the band, as image or .ply; likewise
+    std::filesystem::path volumes;                          ///< of contours drawn at several moments: .csv; likewise
+    std::optional<double> cycle;                            ///< after which their motion repeats, in their unit
     WriteMaskOptions mask;
     std::string name;                   ///< of the structure; empty: the contour file's
     std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
     SeriesWords series;
-    bool date = false;                  ///< say in the outputs when they were made
+    bool date = false;  ///< say in the outputs when they were made
     SegmentOptions options;
     int threads = 0;  ///< 0: the machine's
 };
@@ -123,9 +125,9 @@ void run(const CorrectCommand& command, Console& console);
 /// Makes structures of structures by rules.
 struct DeriveCommand {
     std::vector<std::string> rules;
-    std::filesystem::path rules_file;           ///< more of them, one a line; empty: none
-    std::vector<std::filesystem::path> inputs;  ///< RTSTRUCT, contours, label maps
-    ImageInput image;                           ///< what was drawn on, and what DICOM output refers to
+    std::filesystem::path rules_file;               ///< more of them, one a line; empty: none
+    std::vector<std::filesystem::path> inputs;      ///< RTSTRUCT, contours, label maps
+    ImageInput image;                               ///< what was drawn on, and what DICOM output refers to
     std::filesystem::path output, rtstruct, table;  ///< empty: not asked for
     bool with_sources = false;                      ///< write those, too
     std::vector<std::string> types;                 ///< "NAME=TYPE" of an RTSTRUCT

@@ -65,6 +65,13 @@ void check_each_contour(const fs::path& file, const ContourSet& contours) {
     if (const auto problem = problem_of_a_contour(contours)) refuse(file.string(), *problem);
 }
 
+void set_frame(ContourSet& contours, double frame) {
+    for (Contour& contour : contours.contours) {
+        contour.frame = frame;
+        contour.time_s.reset();
+    }
+}
+
 void put_notes_first(const std::vector<std::string>& notes, std::vector<std::string>& warnings) {
     // A note may begin with its file's name.
     std::erase_if(warnings, [&](const std::string& warning) {

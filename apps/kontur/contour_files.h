@@ -15,6 +15,9 @@ ReadContours read_contours_to_fit(const std::vector<std::filesystem::path>& path
 /// Throws Error(invalid_input), naming the file, where a contour by itself is to blame, as one with points off its plane.
 void check_each_contour(const std::filesystem::path& file, const ContourSet& contours);
 
+/// Says of all contours in which frame they were drawn.
+void set_frame(ContourSet& contours, double frame);
+
 /// Puts what a reader said before what the fit says of the same file, which does not repeat it.
 void put_notes_first(const std::vector<std::string>& notes, std::vector<std::string>& warnings);
 

@@ -173,7 +173,8 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
         case FileKind::image:
             return convert_image(command, output, made, console);
         case FileKind::contours: {
-            const ReadContours loaded = read_contours(command.input.path, command.contours);
+            ReadContours loaded = read_contours(command.input.path, command.contours);
+            if (command.input.options.frame) set_frame(loaded.contours, static_cast<double>(*command.input.options.frame));
             console.note(loaded.notes);
             check_drawn(command, loaded.contours);
             const ImageInput images{command.image, console.noting(command.input.options)};
@@ -201,8 +202,12 @@ void check_options(const ConvertCommand& command, FileKind kind) {
         refuse("a mask of a mesh needs a grid; name an image that has it with --image");
     if (command.contours.roi && kind != FileKind::contours) refuse("--roi chooses from a structure set");
     if (command.contours.curves && kind != FileKind::contours) refuse("--curves is for 3D Slicer's markups (.mrk.json)");
-    if ((read.frame || read.prefer || read.allow_missing_geometry) && kind != FileKind::image)
-        refuse("--frame, --prefer and --allow-missing-geometry are for images");
+    const bool keeps_frame = has_extension(command.output, ".json") && !has_extension(command.output, ".mrk.json");
+    if (read.frame && kind != FileKind::image && !(kind == FileKind::contours && keeps_frame))
+        refuse("--frame is for images, and for contours in kontur's .json, which alone has room for it");
+    if (read.frame && *read.frame < 1 && kind == FileKind::contours) refuse("--frame counts from 1");
+    if ((read.prefer || read.allow_missing_geometry) && kind != FileKind::image)
+        refuse("--prefer and --allow-missing-geometry are for images");
     if ((read.dicom.series_uid || read.dicom.volume || read.dicom.resample_slices) && kind != FileKind::image && !is_dicom)
         refuse("--series, --volume and --resample-slices are for DICOM images");
     if (command.label && kind != FileKind::image) refuse("--label chooses from a label map or a segmentation");

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <set>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -120,6 +122,14 @@ std::size_t count_planes(const ContourSet& set) {
     return planes.size();
 }
 
+/// The moments at which contours were drawn, where they have any.
+Facts moments(const ContourSet& set, std::optional<double> Contour::*moment) {
+    std::set<double> found;
+    for (const Contour& contour : set.contours)
+        if (contour.*moment) found.insert(*(contour.*moment));
+    return found;
+}
+
 }  // namespace
 
 Facts describe(const Grid& grid) {
@@ -147,7 +157,7 @@ Facts describe(const Image& image) {
 
 Facts describe(const ContourSet& set) {
     const auto holes = std::count_if(set.contours.begin(), set.contours.end(), [](const Contour& c) { return c.hole; });
-    return {
+    Facts facts = {
         {"name", set.name},
         {"planes", count_planes(set)},
         {"contours", set.contours.size()},
@@ -160,6 +170,11 @@ Facts describe(const ContourSet& set) {
         {"extent_mm", extent(bounding_box(set))},
         {"problems", contour_problems(set)},
     };
+    if (const Facts frames = moments(set, &Contour::frame); !frames.empty()) facts["frames"] = frames;
+    if (const Facts times = moments(set, &Contour::time_s); !times.empty()) facts["times_s"] = times;
+    if (set.cycle_frames) facts["cycle_frames"] = *set.cycle_frames;
+    if (set.cycle_s) facts["cycle_s"] = *set.cycle_s;
+    return facts;
 }
 
 Facts describe(const StructureAttributes& attributes) {

@@ -100,15 +100,24 @@ std::vector<std::string> frame_of_reference_notes(const std::string& uid, const 
 
 std::vector<std::string> write_contours(const fs::path& path, const ContourSet& set, const ImageInput& images,
                                         const WriteRtstructOptions& options) {
+    const auto has_moment = [](const Contour& contour) { return contour.frame || contour.time_s; };
+    const bool keeps_moments = has_extension(path, ".json") && !has_extension(path, ".mrk.json");
+    std::vector<std::string> notes;
+    if (!keeps_moments && std::ranges::any_of(set.contours, has_moment))
+        notes.push_back(
+            fmt::format("{} has no room for the frame or time of contours, which is left out; kontur's .json has",
+                        path.filename().string()));
     if (!is_dicom_name(path)) {
         kontur::write_contours(path, set, options.provenance);
-        return {};
+        return notes;
     }
     Roi roi;
     roi.name = set.name;
     roi.contours = set;
     if (!set.attributes.color) roi.contours.attributes.color = kStructureColor;
-    return write_rtstruct(path, {"kontur", {roi}}, series_of(images), options);
+    for (std::string& note : write_rtstruct(path, {"kontur", {roi}}, series_of(images), options))
+        notes.push_back(std::move(note));
+    return notes;
 }
 
 std::vector<std::string> write_contours_of_all(const fs::path& path, const std::vector<ContourSet>& sets,

@@ -29,6 +29,7 @@
 #include "kontur/view/picture.h"
 #include "outputs.h"
 #include "own_grid.h"
+#include "segment_moving.h"
 #include "segment_rois.h"
 
 namespace kontur::app {
@@ -47,9 +48,9 @@ void check_files(const SegmentCommand& command) {
     check_dicom_images(command.rtstruct, command.image.path);
     std::vector<fs::path> inputs = command.contours;
     inputs.push_back(command.image.path);
-    check_outputs(
-        std::array{command.output, command.rtstruct, command.mesh, command.picture, command.uncertainty, command.report},
-        inputs);
+    check_outputs(std::array{command.output, command.rtstruct, command.mesh, command.picture, command.uncertainty,
+                             command.volumes, command.report},
+                  inputs);
 }
 
 struct Inputs {
@@ -59,8 +60,7 @@ struct Inputs {
     std::vector<std::string> notes;
 };
 
-Inputs read_inputs(const SegmentCommand& command, const Work& work) {
-    ReadContours contours = read_contours_to_fit(command.contours, command.read);
+Inputs read_inputs(const SegmentCommand& command, ReadContours contours, const Work& work) {
     Inputs inputs{std::move(contours.contours), {}, {}, std::move(contours.notes)};
     for (std::string& note : frame_of_reference_notes(contours.frame_of_reference_uid, command.image))
         inputs.notes.push_back(std::move(note));
@@ -164,6 +164,7 @@ void check_words(const SegmentCommand& command) {
         else check_image_name(command.uncertainty);
     }
     if (!command.report.empty()) check_extension(command.report, ".json");
+    if (!command.volumes.empty()) check_extension(command.volumes, ".csv");
 
     if (lacks_grid(command)) throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
     if (const std::size_t count = command.spacing_mm.size(); count != 0 && count != 1 && count != 3)
@@ -185,10 +186,13 @@ void run(const SegmentCommand& words, Console& console) {
     check_words(command);
     check_files(command);
     if (has_several(command)) return segment_rois(command, console);
+    ReadContours contours = read_contours_to_fit(command.contours, command.read);
+    if (is_moving(command, contours.contours)) return segment_moving(command, std::move(contours), console);
+    if (command.cycle) throw Error(ErrorKind::invalid_input, "--cycle is for contours that were drawn at several moments");
     const Work work = console.work(command.threads);
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch reading(seconds);
-    const Inputs inputs = read_inputs(command, work);
+    const Inputs inputs = read_inputs(command, std::move(contours), work);
     // Beside the work: a large image takes as long to digest as a small case to segment.
     std::future<Provenance> digests =
         std::async(std::launch::async, [&command, stop = work.stop] { return input_digests(command, Work{.stop = stop}); });

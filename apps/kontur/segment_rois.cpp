@@ -162,6 +162,8 @@ void check_roi_words(const SegmentCommand& command) {
                            command.mesh.string()));
     if (!command.picture.empty()) refuse_one("--picture");
     if (!command.uncertainty.empty()) refuse_one("--uncertainty");
+    if (!command.volumes.empty()) refuse_one("--volumes");
+    if (command.cycle) refuse_one("--cycle");
     if (!command.name.empty()) refuse_one("--name");
     if (command.mask.label_value != WriteMaskOptions{}.label_value)
         refuse("--label-value is for one structure; several ROIs become the labels 1, 2, ...");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "contour_files.h"
 #include "dicom_output.h"
 #include "input_digests.h"
 #include "kontur/base/counted.h"
@@ -122,6 +123,8 @@ void run(const TraceCommand& command, Console& console) {
         set.attributes = attributes_of(*segment);
     }
     if (!command.name.empty()) set.name = command.name;
+    if (command.read.frame && !has_extension(command.mask, ".seg.nrrd"))  // of which it chooses a layer
+        set_frame(set, static_cast<double>(*command.read.frame));
 
     const WriteRtstructOptions write = rtstruct_options(command.holes, command.series, provenance_of(command, work));
     Outputs outputs;

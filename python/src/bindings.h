@@ -20,6 +20,7 @@ void bind_fitting(py::module_& stages);
 void bind_constraints(py::module_& stages);
 void bind_extraction(py::module_& m, py::module_& stages);
 void bind_segment(py::module_& m);
+void bind_moving(py::module_& m);
 void bind_together(py::module_& m);
 void bind_shared_surfaces(py::module_& m);
 void bind_uncertainty_types(py::module_& m);

@@ -15,7 +15,7 @@ void check_finite(const std::vector<Vec3>& points) {
 }
 
 Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane, bool closed, bool hole, ContourEnd end,
-                     std::optional<Hand> inside, double weight) {
+                     std::optional<Hand> inside, double weight, std::optional<double> frame, std::optional<double> time_s) {
     check_finite(points);
     const std::optional<Plane> its_plane = plane ? plane : fit_plane(points);
     if (!its_plane)
@@ -30,6 +30,8 @@ Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane
     contour.end = end;
     contour.inside = inside;
     contour.weight = weight;
+    contour.frame = frame;
+    contour.time_s = time_s;
     return contour;
 }
 
@@ -53,12 +55,13 @@ std::vector<SurfacePoint> surface_points(const SurfaceArgument& given) {
 
 bool equal(const Contour& a, const Contour& b) {
     return a.plane == b.plane && a.points == b.points && a.closed == b.closed && a.hole == b.hole && a.end == b.end &&
-           a.inside == b.inside && a.weight == b.weight;
+           a.inside == b.inside && a.weight == b.weight && a.frame == b.frame && a.time_s == b.time_s;
 }
 
 bool equal(const ContourSet& a, const ContourSet& b) {
     return a.name == b.name && a.interior == b.interior && a.exterior == b.exterior && a.surface == b.surface &&
-           a.empty_planes == b.empty_planes && a.attributes == b.attributes &&
+           a.empty_planes == b.empty_planes && a.attributes == b.attributes && a.cycle_frames == b.cycle_frames &&
+           a.cycle_s == b.cycle_s &&
            std::equal(a.contours.begin(), a.contours.end(), b.contours.begin(), b.contours.end(),
                       [](const Contour& x, const Contour& y) { return equal(x, y); });
 }
@@ -89,7 +92,8 @@ py::object contour_at(const py::object& self, py::ssize_t index) {
 ContourSet contours_at(const ContourSet& set, const py::slice& slice) {
     std::size_t start = 0, stop = 0, step = 0, count = 0;
     if (!slice.compute(set.contours.size(), &start, &stop, &step, &count)) throw py::error_already_set();
-    ContourSet some{set.name, {}, set.interior, set.exterior, set.surface, set.empty_planes, set.attributes};
+    ContourSet some{set.name,         {},         set.interior, set.exterior, set.surface, set.empty_planes, set.attributes,
+                    set.cycle_frames, set.cycle_s};
     for (std::size_t n = 0; n < count; ++n, start += step) some.contours.push_back(set.contours[start]);
     return some;
 }
@@ -126,6 +130,8 @@ inside : {'left', 'right'}, optional
     normal points; to be found out when left out.
 weight : float
     How far it is trusted, against smoothness and the contours that it contradicts; from 0.001 to 1000.
+frame, time_s : float, optional
+    When it was drawn, of an object that moves: the image's frame, counted from 1, or seconds.
 
 Examples
 --------
@@ -135,7 +141,7 @@ Examples
 )");
     constructor(contour, &contour_from, py::arg("points"), py::arg("plane") = py::none(), py::arg("closed") = true,
                 py::arg("hole") = false, py::arg("end") = ContourEnd{}, py::arg("inside") = py::none(),
-                py::arg("weight") = 1.0);
+                py::arg("weight") = 1.0, py::arg("frame") = py::none(), py::arg("time_s") = py::none());
     contour.def_readonly("plane", &Contour::plane, "Plane: where it was drawn.");
     contour.def_property_readonly(
         "points", [](const py::object& self) { return points_view(self, self.cast<const Contour&>().points); },
@@ -145,6 +151,8 @@ Examples
     contour.def_readonly("end", &Contour::end, "str: 'automatic', 'flat' or 'round'.");
     contour.def_readonly("inside", &Contour::inside, "str or None: 'left', 'right' or to be found out.");
     contour.def_readonly("weight", &Contour::weight, "float: how far it is trusted.");
+    contour.def_readonly("frame", &Contour::frame, "float or None: of the image, from 1, in which it was drawn.");
+    contour.def_readonly("time_s", &Contour::time_s, "float or None: when it was drawn.");
     contour.def("__len__", [](const Contour& c) { return c.points.size(); });
     contour.def(
         "__eq__", [](const Contour& a, const Contour& b) { return equal(a, b); }, py::is_operator());
@@ -153,7 +161,7 @@ Examples
             .format(counted(c.points.size(), "point"), c.closed ? "" : ", open", c.hole ? ", hole" : "");
     });
     picklable(contour, [](const Contour& c) {
-        return py::make_tuple(c.points, c.plane, c.closed, c.hole, c.end, c.inside, c.weight);
+        return py::make_tuple(c.points, c.plane, c.closed, c.hole, c.end, c.inside, c.weight, c.frame, c.time_s);
     });
 }
 
@@ -202,6 +210,8 @@ empty_planes : sequence of Plane
     Planes that were looked at, and in which nothing of the object is seen.
 attributes : StructureAttributes, optional
     What files say of the object beside its name.
+cycle_frames, cycle_s : float, optional
+    The motion of contours with a frame, or a time, repeats after so many frames, or seconds.
 
 Examples
 --------
@@ -214,18 +224,22 @@ Examples
     constructor(
         set,
         [](std::vector<Contour> contours, std::string name, const std::optional<std::vector<Vec3>>& interior,
-           const std::optional<std::vector<Vec3>>& exterior, const SurfaceArgument& surface,
-           std::vector<Plane> empty_planes, std::optional<StructureAttributes> attributes) {
+           const std::optional<std::vector<Vec3>>& exterior, const SurfaceArgument& surface, std::vector<Plane> empty_planes,
+           std::optional<StructureAttributes> attributes, std::optional<double> cycle_frames,
+           std::optional<double> cycle_s) {
             return ContourSet{std::move(name),
                               std::move(contours),
                               interior.value_or(std::vector<Vec3>{}),
                               exterior.value_or(std::vector<Vec3>{}),
                               surface_points(surface),
                               std::move(empty_planes),
-                              std::move(attributes).value_or(StructureAttributes{})};
+                              std::move(attributes).value_or(StructureAttributes{}),
+                              cycle_frames,
+                              cycle_s};
         },
         py::arg("contours"), py::arg("name") = "", py::arg("interior") = py::none(), py::arg("exterior") = py::none(),
-        py::arg("surface") = py::tuple(), py::arg("empty_planes") = py::tuple(), py::arg("attributes") = py::none());
+        py::arg("surface") = py::tuple(), py::arg("empty_planes") = py::tuple(), py::arg("attributes") = py::none(),
+        py::arg("cycle_frames") = py::none(), py::arg("cycle_s") = py::none());
     set.def_property_readonly("contours", &contours_of, "tuple of Contour");
     set.def_readonly("name", &ContourSet::name, "str: may be empty.");
     set.def_readonly("interior", &ContourSet::interior, "ndarray, shape (n, 3), float64: mm.");
@@ -233,6 +247,8 @@ Examples
     set.def_readonly("surface", &ContourSet::surface, "list of SurfacePoint");
     set.def_readonly("empty_planes", &ContourSet::empty_planes, "list of Plane: in which nothing of the object is seen.");
     set.def_readonly("attributes", &ContourSet::attributes, "StructureAttributes: what files say of the object.");
+    set.def_readonly("cycle_frames", &ContourSet::cycle_frames, "float or None: after which the motion repeats.");
+    set.def_readonly("cycle_s", &ContourSet::cycle_s, "float or None: after which the motion repeats.");
     set.def_property_readonly("point_count", &point_count, "int: over all contours.");
     set.def_property_readonly(
         "bounding_box", [](const ContourSet& s) { return bounding_box(s); },
@@ -254,7 +270,8 @@ Examples
             .format(s.name, counted(s.contours.size(), "contour"), counted(point_count(s), "point"));
     });
     picklable(set, [](const ContourSet& s) {
-        return py::make_tuple(s.contours, s.name, s.interior, s.exterior, s.surface, s.empty_planes, s.attributes);
+        return py::make_tuple(s.contours, s.name, s.interior, s.exterior, s.surface, s.empty_planes, s.attributes,
+                              s.cycle_frames, s.cycle_s);
     });
 }
 

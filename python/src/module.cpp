@@ -62,6 +62,7 @@ PYBIND11_MODULE(_core, m) {
     bind_uncertainty_types(m);
     bind_section_checks(m);
     bind_segment(m);
+    bind_moving(m);
     bind_together(m);
     bind_shared_surfaces(m);
     bind_labels(m);

@@ -37,6 +37,7 @@
 #include "kontur/fill_labels.h"
 #include "kontur/live_editor.h"
 #include "kontur/segment.h"
+#include "kontur/segment_moving.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
 #include "kontur/segment_together.h"

@@ -15,7 +15,9 @@
 namespace kontur {
 namespace {
 
-auto parts(const Contour& c) { return std::tie(c.plane, c.points, c.closed, c.hole, c.end, c.inside, c.weight); }
+auto parts(const Contour& c) {
+    return std::tie(c.plane, c.points, c.closed, c.hole, c.end, c.inside, c.weight, c.frame, c.time_s);
+}
 
 bool is_same(const ContourSet& a, const ContourSet& b) {
     const auto others = [](const ContourSet& s) {

@@ -39,6 +39,25 @@ def write_dicom(folder, image):
         one.save_as(folder / f"{k:03}.dcm", write_like_original=False)
 
 
+def write_beating_ball(folder):
+    """A cine of 8 frames, and circles on a ball in the first and the fifth of them."""
+    import nibabel
+
+    cine = nibabel.Nifti1Image(numpy.zeros((24, 24, 24, 8), numpy.int16), numpy.diag([2, 2, 2, 1]))
+    cine.set_sform(cine.affine, 1)
+    cine.header.set_xyzt_units("mm", "msec")
+    cine.header["pixdim"][4] = 100
+    nibabel.save(cine, folder / "cine.nii.gz")
+    angles = numpy.linspace(0, 2 * numpy.pi, 48, endpoint=False)
+    drawn = []
+    for frame, radius in ((1, 18), (5, 14)):
+        for z in (-10, -3, 3, 10):
+            r = numpy.sqrt(radius**2 - z**2)
+            ring = numpy.c_[r * numpy.cos(angles) - 23, r * numpy.sin(angles) - 23, 0 * angles + z + 23]
+            drawn.append(kontur.Contour(ring, frame=frame))
+    kontur.write_contours(folder / "beating.json", kontur.ContourSet(drawn, name="ball", cycle_frames=8))
+
+
 def write_material(folder):
     image = kontur.make_phantom_image(GRID)
     truth = kontur.make_truth_mask(CASE.body, GRID)
@@ -60,6 +79,7 @@ def write_material(folder):
     others = [c for c in CASE.contours if abs(c.plane.normal[2]) <= 0.9]
     for name, some in (("axial", axial), ("sagittal", others)):
         kontur.write_contours(folder / "P002" / f"{name}.json", kontur.ContourSet(some, name="liver"))
+    write_beating_ball(folder)
     write_dicom(folder / "dicom_folder", image)
     shutil.copytree(folder / "dicom_folder", folder / "P002" / "dicom")
     liver = kontur.segment(CASE.contours, GRID, mesh=True)

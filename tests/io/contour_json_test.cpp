@@ -66,6 +66,8 @@ void expect_same(const ContourSet& a, const ContourSet& b) {
     EXPECT_EQ(a.exterior, b.exterior);
     EXPECT_EQ(a.surface, b.surface);
     EXPECT_EQ(a.empty_planes, b.empty_planes);
+    EXPECT_EQ(a.cycle_frames, b.cycle_frames);
+    EXPECT_EQ(a.cycle_s, b.cycle_s);
     ASSERT_EQ(a.contours.size(), b.contours.size());
     for (std::size_t i = 0; i < a.contours.size(); ++i) {
         EXPECT_EQ(a.contours[i].plane, b.contours[i].plane) << "contour " << i;
@@ -75,6 +77,8 @@ void expect_same(const ContourSet& a, const ContourSet& b) {
         EXPECT_EQ(a.contours[i].end, b.contours[i].end);
         EXPECT_EQ(a.contours[i].inside, b.contours[i].inside);
         EXPECT_EQ(a.contours[i].weight, b.contours[i].weight);
+        EXPECT_EQ(a.contours[i].frame, b.contours[i].frame);
+        EXPECT_EQ(a.contours[i].time_s, b.contours[i].time_s);
     }
 }
 
@@ -148,11 +152,22 @@ TEST_F(ContourJson, ContoursWeighOneUnlessTheFileSaysOtherwise) {
     EXPECT_EQ(set.contours[1].weight, 0.25);
 }
 
+TEST_F(ContourJson, AContourMayHaveAMomentAndADrawingWithoutAnyHasNoWordOfIt) {
+    const ContourSet set = read(replaced(R"("hole": true)", R"("hole": true, "frame": 7)"));
+    EXPECT_FALSE(set.contours[0].frame.has_value());
+    EXPECT_EQ(set.contours[1].frame, 7);
+    write_contour_json(folder_ / "plain.json", read(kSmall));
+    for (const char* word : {"\"frame\": 1", "time_s", "cycle"})
+        EXPECT_EQ(content_of(folder_ / "plain.json").find(word), std::string::npos) << word;
+}
+
 TEST_F(ContourJson, RefusesMeaningsThatItDoesNotKnow) {
     EXPECT_NE(refusal(replaced(R"("hole": true)", R"("end": "pointed")"))
                   .find(R"(contour 2: 'end' is "pointed"; "flat" or "round" is expected)"),
               std::string::npos);
     EXPECT_NE(refusal(replaced(R"("hole": true)", R"("weight": "much")")).find("'weight' is text, not a number"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced(R"("hole": true)", R"("frame": "first")")).find("'frame' is text, not a number"),
               std::string::npos);
     EXPECT_NE(refusal(replaced(R"("hole": true)", R"("inside": "up")")).find(R"('inside' is "up"; "left" or "right")"),
               std::string::npos);
@@ -260,8 +275,12 @@ TEST_F(ContourJson, WritingAndReadingGivesTheSameDoubles) {
         if (contour.closed) contour.end = std::array{ContourEnd::automatic, ContourEnd::flat, ContourEnd::round}[i % 3];
         else if (i % 2) contour.inside = i % 3 ? Hand::left : Hand::right;
         if (i % 7 == 0) contour.weight = 0.001 + 0.1 * i;
+        if (i % 3 == 0) contour.frame = 1 + 0.1 * i;
+        if (i % 3 == 1) contour.time_s = -0.7 * i;
         set.contours.push_back(contour);
     }
+    set.cycle_frames = 20;
+    set.cycle_s = 0.83;
     set.contours[5].points[0] = {1e-300, 0.1 + 0.2, std::numeric_limits<double>::max()};
     expect_same(set, written_and_read(set));
     const std::string first = content_of(folder_ / "out.json");

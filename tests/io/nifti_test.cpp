@@ -9,6 +9,7 @@
 
 #include "image_cases.h"
 #include "kontur/io/image.h"
+#include "kontur/io/image_frames.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
 
@@ -287,6 +288,34 @@ TEST_F(Spoiled, MissingTransformsNeedConsent) {
     EXPECT_EQ(grid.index_to_mm.translation, Vec3{});
     EXPECT_LT(distance(grid.index_to_mm.column(0), {-0.7, 0, 0}), 1e-6);
     EXPECT_LT(distance(grid.index_to_mm.column(2), {0, 0, 2.5}), 1e-6);
+}
+
+TEST(Nifti, MasksOfSeveralFramesComeBackEachWithTheTimeBetweenThem) {
+    const test::TemporaryFolder folder;
+    std::vector<Mask> masks;
+    for (std::size_t n = 0; n < 3; ++n) {
+        Mask& mask = masks.emplace_back(Mask{test::all_orientations()[5], {}});
+        mask.values.assign(static_cast<std::size_t>(mask.grid.voxel_count()), 0);
+        mask.values[n] = 1;
+    }
+    write_masks(folder / "a.nii.gz", masks, 0.041, {.label_value = 7});
+    const ImageFrames frames = read_image_frames(folder / "a.nii.gz");
+    EXPECT_EQ(frames.count, 3);
+    EXPECT_NEAR(frames.step_s.value_or(0), 0.041, 1e-8);
+    for (std::int64_t n = 0; n < 3; ++n) {
+        ReadImageOptions of_frame;
+        of_frame.frame = n + 1;
+        const Mask again = read_mask(folder / "a.nii.gz", 7, of_frame);
+        EXPECT_EQ(again.values, masks[static_cast<std::size_t>(n)].values);
+        EXPECT_LT(corner_distance_mm(again.grid, masks[0].grid), 1e-4);
+    }
+    write_masks(folder / "b.nii", std::span(masks).first(1));
+    EXPECT_EQ(read_image_frames(folder / "b.nii").count, 1);
+    EXPECT_FALSE(read_image_frames(folder / "b.nii").step_s.has_value());
+    masks[1].grid.index_to_mm.translation.x += 1;
+    expect_error(ErrorKind::invalid_input, "the mask of frame 2 has another grid",
+                 [&] { write_masks(folder / "c.nii", masks); });
+    expect_error(ErrorKind::unsupported, "are written as .nii or .nii.gz", [&] { write_masks(folder / "c.nrrd", masks); });
 }
 
 TEST(Nifti, ReadsTheChosenFrame) {

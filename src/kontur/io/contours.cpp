@@ -147,6 +147,8 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
         if (all.contours.name.empty()) all.contours.name = one.contours.name;
         if (all.contours.attributes == StructureAttributes{}) all.contours.attributes = one.contours.attributes;
         if (all.frame_of_reference_uid.empty()) all.frame_of_reference_uid = one.frame_of_reference_uid;
+        if (!all.contours.cycle_frames) all.contours.cycle_frames = one.contours.cycle_frames;
+        if (!all.contours.cycle_s) all.contours.cycle_s = one.contours.cycle_s;
         append(all.contours.contours, one.contours.contours);
         append(all.contours.interior, one.contours.interior);
         append(all.contours.exterior, one.contours.exterior);

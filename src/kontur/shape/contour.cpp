@@ -84,6 +84,16 @@ void check_meaning(const Contour& contour, const std::string& owner) {
     if (!(contour.weight >= kLeastWeight && contour.weight <= kMostWeight))
         refuse(fmt::format("{} has the weight {:g}; it must be from {:g} to {:g}", owner, contour.weight, kLeastWeight,
                            kMostWeight));
+    if (contour.frame && contour.time_s) refuse(owner + " has a frame and a time; one of them tells when it was drawn");
+    if (contour.frame && !(std::isfinite(*contour.frame) && *contour.frame >= 1))
+        refuse(fmt::format("{} was drawn in frame {:g}; frames count from 1", owner, *contour.frame));
+    if (contour.time_s && !std::isfinite(*contour.time_s))
+        refuse(fmt::format("{} was drawn at {:g} s, which is no time", owner, *contour.time_s));
+}
+
+std::string moment_of(const Contour& contour) {
+    if (contour.frame) return fmt::format("in frame {:g}", *contour.frame);
+    return contour.time_s ? fmt::format("at {:g} s", *contour.time_s) : "at no moment in particular";
 }
 
 void check_contour(const Contour& contour, const ContourCheckOptions& options, const std::string& owner) {
@@ -216,9 +226,21 @@ std::size_t drop_duplicate_points(ContourSet& set) {
     return before - point_count(set);
 }
 
+bool is_moving(const ContourSet& set) {
+    return std::any_of(set.contours.begin(), set.contours.end(), [&](const Contour& contour) {
+        return contour.frame != set.contours.front().frame || contour.time_s != set.contours.front().time_s;
+    });
+}
+
 void check_contours(const ContourSet& set, const ContourCheckOptions& options) {
     const std::vector<std::string> problems = contour_problems(set, options);
     if (!problems.empty()) refuse(problems.front());
+    if (!is_moving(set)) return;
+    std::size_t other = 1;
+    while (moment_of(set.contours[other]) == moment_of(set.contours.front()) && other + 1 < set.contours.size()) ++other;
+    refuse(
+        fmt::format("contour 1 was drawn {} and contour {} {}; only kontur segment with a 4D --image takes several moments",
+                    moment_of(set.contours.front()), other + 1, moment_of(set.contours[other])));
 }
 
 void check_tolerances(const ContourCheckOptions& options) {

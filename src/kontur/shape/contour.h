@@ -37,6 +37,8 @@ struct Contour {
     ContourEnd end = ContourEnd::automatic;  ///< closed contours only
     std::optional<Hand> inside{};            ///< open contours only: where the object lies; unset: to be found out
     double weight = 1;  ///< how far it is trusted, against smoothness and the contours that it contradicts
+    /// When it was drawn, of an object that moves: the image's frame, counted from 1, or seconds. Both unset: of all times.
+    std::optional<double> frame{}, time_s{};
 };
 
 /// The range of Contour::weight.
@@ -59,7 +61,12 @@ struct ContourSet {
     std::vector<SurfacePoint> surface{};
     std::vector<Plane> empty_planes{};  ///< that were looked at, and in which nothing of the object is seen
     StructureAttributes attributes{};   ///< what files say of it, carried along
+    /// The motion repeats after so many frames or seconds; unset: it does not, or nothing moves.
+    std::optional<double> cycle_frames{}, cycle_s{};
 };
+
+/// Whether its contours were drawn at different moments.
+bool is_moving(const ContourSet& set);
 
 /// Number of points over all contours.
 std::size_t point_count(const ContourSet& set);
@@ -99,11 +106,14 @@ inline constexpr double kFarthestSurfacePoint = 100;
 /// or infinite coordinate, a point off its plane by more than the tolerance, `hole` or `end` on an open contour, `inside` on
 /// a closed one, `end` on a hole, a weight out of its range, nothing but closed contours whose points lie on one line (zero
 /// area) where there are some; beside others such a contour is no reason (leave_out_lines).
+/// A frame or a time must be finite, a frame 1 at least, and all contours of one moment, or none of any: what moves is
+/// segmented by segment_moving.
 /// Interior, exterior and surface points must be finite, outward directions and the normals of empty planes of length 1, and
 /// surface points no farther from the contours than `kFarthestSurfacePoint` times the diagonal of their box.
 void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
 
-/// Every reason of `check_contours` to refuse the set, at most one for each contour; empty when it can be segmented.
+/// Every reason of `check_contours` to refuse the set but several moments, at most one for each contour; empty when it can
+/// be segmented, by segment or segment_moving.
 std::vector<std::string> contour_problems(const ContourSet& set, const ContourCheckOptions& options = {});
 
 /// What a contour by itself is to blame for, zero area included; `name` says which it is.

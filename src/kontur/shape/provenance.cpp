@@ -2,6 +2,7 @@
 #include "kontur/shape/provenance.h"
 
 #include <bit>
+#include <optional>
 #include <span>
 
 #include "kontur/shape/sha256.h"
@@ -46,7 +47,12 @@ std::string contours_sha256(const ContourSet& set) {
         digest.add(static_cast<std::uint64_t>(contour.end));
         digest.add(contour.inside ? 1 + static_cast<std::uint64_t>(*contour.inside) : std::uint64_t{0});
         if (contour.weight != 1) digest.add(contour.weight);  // digests from before there were weights stay valid
+        for (const std::optional<double>& moment : {contour.frame, contour.time_s})
+            if (moment) digest.add(*moment);
+        if (contour.time_s) digest.add(std::uint64_t{1});  // no frame
     }
+    for (const std::optional<double>& cycle : {set.cycle_frames, set.cycle_s})
+        if (cycle) digest.add(*cycle);
     digest.add(set.interior);
     digest.add(set.exterior);
     digest.add(std::uint64_t{set.surface.size()});

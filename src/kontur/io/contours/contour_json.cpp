@@ -96,12 +96,18 @@ std::optional<Value> named_member(const json& item, const char* key, std::initia
     corrupt(fmt::format("'{}' is \"{}\"; {} is expected", key, text, known));
 }
 
+std::optional<double> optional_number(const json& owner, const char* key) {
+    return owner.contains(key) ? std::optional(number_member(owner, key, 0)) : std::nullopt;
+}
+
 Contour read_contour(const json& item, const Plane& plane, PatientFrame frame) {
     Contour contour{plane, read_points(array_member(item, "points"), frame), flag_member(item, "closed", true),
                     flag_member(item, "hole", false)};
     contour.end = named_member(item, "end", {ContourEnd::flat, ContourEnd::round}).value_or(ContourEnd::automatic);
     contour.inside = named_member(item, "inside", {Hand::left, Hand::right});
     contour.weight = number_member(item, "weight", 1);
+    contour.frame = optional_number(item, "frame");
+    contour.time_s = optional_number(item, "time_s");
     std::vector<Vec3>& points = contour.points;
     if (contour.closed && points.size() > 1 && points.back() == points.front()) points.pop_back();
     return contour;
@@ -167,6 +173,8 @@ ContourSet read_set(const json& document) {
     set.exterior = read_constraints(document, "exterior");
     set.surface = read_surface(document);
     set.empty_planes = read_bare_planes(document, "empty_planes", "has contours; nothing was drawn in an empty plane");
+    set.cycle_frames = optional_number(document, "cycle_frames");
+    set.cycle_s = optional_number(document, "cycle_s");
     return set;
 }
 
@@ -200,12 +208,20 @@ std::string to_text(const std::vector<Point>& points) {
     return text + "]";
 }
 
+std::string to_member(const char* key, double value) {
+    if (!std::isfinite(value))
+        throw Error(ErrorKind::invalid_input, fmt::format("{} to be written is NaN or infinite", key));
+    return fmt::format("\"{}\": {}", key, value + 0.0);
+}
+
 std::string to_text(const Contour& contour) {
     std::string text = fmt::format("    {{\"closed\": {}, \"hole\": {}, ", contour.closed, contour.hole);
     if (contour.end != ContourEnd::automatic) text += fmt::format("\"end\": \"{}\", ", name(contour.end));
     if (contour.inside) text += fmt::format("\"inside\": \"{}\", ", name(*contour.inside));
     if (!std::isfinite(contour.weight)) throw Error(ErrorKind::invalid_input, "a contour's weight is NaN or infinite");
     if (contour.weight != 1) text += fmt::format("\"weight\": {}, ", contour.weight);
+    if (contour.frame) text += to_member("frame", *contour.frame) + ", ";
+    if (contour.time_s) text += to_member("time_s", *contour.time_s) + ", ";
     return text + fmt::format("\"points\": {}}}", to_text(contour.points));
 }
 
@@ -239,6 +255,8 @@ std::string to_document(const ContourSet& set, const Provenance& provenance, con
     if (!set.exterior.empty()) text += ",\n\"exterior\": " + to_text(set.exterior);
     if (!set.surface.empty()) text += ",\n\"surface\": " + to_text(set.surface);
     if (!set.empty_planes.empty()) text += ",\n\"empty_planes\": " + to_text(set.empty_planes);
+    if (set.cycle_frames) text += ",\n" + to_member("cycle_frames", *set.cycle_frames);
+    if (set.cycle_s) text += ",\n" + to_member("cycle_s", *set.cycle_s);
     if (!confirmed.empty()) text += ",\n\"confirmed_planes\": " + to_text(confirmed);
     if (!provenance.empty()) text += ",\n\"provenance\": " + to_json(provenance);
     return text + "\n}\n";

@@ -135,6 +135,20 @@ double mm_per_unit(const NiftiHeader& header, const fs::path& path) {
     }
 }
 
+std::optional<double> seconds_per_unit(const NiftiHeader& header) {
+    constexpr std::int64_t kTimeBits = 56;
+    switch (header.units & kTimeBits) {
+        case 8:
+            return 1;
+        case 16:
+            return 1e-3;
+        case 24:
+            return 1e-6;
+        default:
+            return std::nullopt;
+    }
+}
+
 Affine3 unoriented_affine(const NiftiHeader& header) {
     Affine3 affine;
     for (int axis = 0; axis < 3; ++axis) affine.linear[axis][axis] = header.pixdim[static_cast<std::size_t>(axis) + 1];
@@ -290,9 +304,30 @@ Image read_nifti(const fs::path& path, const ReadImageOptions& options, const Wo
 
 Grid read_nifti_grid(const fs::path& path, const ReadImageOptions& options) { return open_nifti(path, options).grid; }
 
-void write_nifti(const fs::path& path, const ImageView& image) {
+ImageFrames read_nifti_frames(const fs::path& path) {
+    const std::optional<ImagePair> pair = image_pair(path);
+    InputFile file(pair ? pair->header : path);
+    if (file.at_gzip()) file.inflate();
+    bool big_endian = false;
+    const NiftiHeader header = read_header(file, pair.has_value(), big_endian);
+    ImageFrames frames{frame_count(header, path), {}};
+    const std::optional<double> unit = seconds_per_unit(header);
+    if (const double step = header.pixdim[4]; unit && std::isfinite(step) && step > 0) frames.step_s = *unit * step;
+    return frames;
+}
+
+void write_nifti(const fs::path& path, const ImageView& image, const ImageFrames& frames) {
     check_grid(image.grid);
     NiftiHeader header = header_for(image.grid);
+    if (frames.count > 1) {
+        header.dim[0] = 4;
+        header.dim[4] = frames.count;
+        if (frames.step_s) {
+            constexpr std::int64_t kSeconds = 8;
+            header.pixdim[4] = *frames.step_s;
+            header.units |= kSeconds;
+        }
+    }
     std::visit(
         [&]<typename Value>(std::span<const Value>) {
             header.datatype = datatype_code<Value>();

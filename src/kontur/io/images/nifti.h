@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "kontur/base/work.h"
+#include "kontur/io/images/frames.h"
 #include "kontur/io/images/image_view.h"
 #include "kontur/io/images/read_image_options.h"
 
@@ -23,9 +24,13 @@ Image read_nifti(const std::filesystem::path& path, const ReadImageOptions& opti
 /// The geometry alone, from the header.
 Grid read_nifti_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});
 
+/// Frames and the time between them, where the header has both the time and its unit.
+ImageFrames read_nifti_frames(const std::filesystem::path& path);
+
 /// Writes NIfTI-1, or NIfTI-2 when a size exceeds 32767; compressed when the name ends with .gz, the same bytes each time.
 /// The sform holds the full affine; the qform is written beside it (both with code 1) only when it can express the same,
 /// that is without shear. Sample type as in memory. NIfTI-1 keeps the affine in single precision.
-void write_nifti(const std::filesystem::path& path, const ImageView& image);
+/// Of several `frames` the image has the samples of one after the other, on one grid.
+void write_nifti(const std::filesystem::path& path, const ImageView& image, const ImageFrames& frames = {});
 
 }  // namespace kontur

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "segment_moving.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "contour_files.h"
+#include "input_digests.h"
+#include "kontur/base/counted.h"
+#include "kontur/base/error.h"
+#include "kontur/base/stopwatch.h"
+#include "kontur/io/bytes/atomic_file.h"
+#include "kontur/io/image_frames.h"
+#include "kontur/segment_moving.h"
+#include "kontur/segment_report.h"
+#include "outputs.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& problem) { throw Error(ErrorKind::invalid_input, problem); }
+
+/// The image's frames in the contours' unit.
+std::vector<double> times_of(const SegmentCommand& command, const ContourSet& contours, const ImageFrames& frames) {
+    const bool in_seconds = contours.contours.front().time_s.has_value();
+    if (in_seconds && frames.count > 1 && !frames.step_s)
+        refuse(fmt::format("contours have a time_s, and {} does not say how far apart its frames are; give contours a frame",
+                           command.image.path.string()));
+    std::vector<double> times;
+    for (std::int64_t n = 0; n < frames.count; ++n)
+        times.push_back(in_seconds ? static_cast<double>(n) * frames.step_s.value_or(0) : static_cast<double>(n + 1));
+    return times;
+}
+
+std::string csv_of(const MovingSegmentation& result, const std::optional<double>& step_s) {
+    std::string text = "frame,time_s,volume_ml,contours,phase\n";
+    for (std::size_t n = 0; n < result.masks.size(); ++n) {
+        std::size_t contours = 0;
+        for (const DrawnMoment& moment : result.moments) contours += moment.time == result.times[n] ? moment.contours : 0;
+        const char* phase = n == result.volumes.largest ? "largest" : n == result.volumes.smallest ? "smallest" : "";
+        text +=
+            fmt::format("{},{},{:.3f},{},{}\n", n + 1, step_s ? fmt::format("{:g}", static_cast<double>(n) * *step_s) : "",
+                        result.volumes.volumes_ml[n], contours, phase);
+    }
+    return text;
+}
+
+std::string json_of(const MovingSegmentation& result, const Provenance& made) {
+    nlohmann::ordered_json report;
+    const VolumeCurve& curve = result.volumes;
+    report["frames"] = result.masks.size();
+    report["moments"] = nlohmann::ordered_json::array();
+    for (const DrawnMoment& moment : result.moments) {
+        const SegmentReport& one = moment.segmentation.report;
+        report["moments"].push_back({{"time", moment.time},
+                                     {"contours", moment.contours},
+                                     {"carried", moment.carried},
+                                     {"volume_ml", one.mask_volume_ml},
+                                     {"residual_max_mm", one.residual.max_mm},
+                                     {"residual_rms_mm", one.residual.rms_mm}});
+    }
+    report["mask"]["volume_ml"] = curve.volumes_ml[curve.largest];  // what batch shows of a case
+    report["volumes_ml"] = curve.volumes_ml;
+    report["largest_frame"] = curve.largest + 1;
+    report["smallest_frame"] = curve.smallest + 1;
+    report["stroke_ml"] = curve.stroke_ml();
+    report["ejection_fraction"] = curve.ejection_fraction();
+    report["warnings"] = result.warnings;
+    for (const auto& [stage, seconds] : result.seconds) report["seconds"][stage] = seconds;
+    for (const auto& [name, value] : made) report["provenance"][name] = value;
+    return report.dump(2) + "\n";
+}
+
+std::string summary_of(const SegmentCommand& command, const MovingSegmentation& result) {
+    const VolumeCurve& curve = result.volumes;
+    std::string text = fmt::format("{}: {}, {} drawn\n", command.output.string(), counted(result.masks.size(), "frame"),
+                                   counted(result.moments.size(), "moment"));
+    for (const fs::path& path : {command.volumes, command.report})
+        if (!path.empty()) text += path.string() + "\n";
+    text += fmt::format("largest in frame {} ({:.4g} ml), smallest in frame {} ({:.4g} ml)\n", curve.largest + 1,
+                        curve.volumes_ml[curve.largest], curve.smallest + 1, curve.volumes_ml[curve.smallest]);
+    return text + fmt::format("stroke volume {:.4g} ml, ejection fraction {:.1f} %\n", curve.stroke_ml(),
+                              100 * curve.ejection_fraction());
+}
+
+}  // namespace
+
+bool is_moving(const SegmentCommand& command, const ContourSet& contours) {
+    return kontur::is_moving(contours) || !command.volumes.empty();
+}
+
+void check_moving_words(const SegmentCommand& command) {
+    if (command.image.path.empty())
+        refuse("contours were drawn at several moments; give a 4D --image, whose frames get masks");
+    if (command.image.options.frame)
+        refuse(fmt::format("--frame {} chooses one frame, and contours were drawn in several; leave it out",
+                           *command.image.options.frame));
+    for (const auto& [option, path] :
+         {std::pair("--mesh", &command.mesh), std::pair("--picture", &command.picture),
+          std::pair("--rtstruct", &command.rtstruct), std::pair("--uncertainty", &command.uncertainty)})
+        if (!path->empty())
+            refuse(fmt::format("{} is of one moment, and contours were drawn at several; leave it out", option));
+    check_frames_name(command.output);
+}
+
+void segment_moving(const SegmentCommand& command, ReadContours read, Console& console) {
+    check_moving_words(command);
+    const Work work = console.work(command.threads);
+    std::vector<std::pair<std::string, double>> seconds;
+    Stopwatch reading(seconds);
+    ContourSet& contours = read.contours;
+    std::vector<std::string> notes = std::move(read.notes);
+    if (!command.name.empty()) contours.name = command.name;
+    if (command.cycle) (contours.contours.front().time_s ? contours.cycle_s : contours.cycle_frames) = command.cycle;
+    for (std::string& note : frame_of_reference_notes(read.frame_of_reference_uid, command.image))
+        notes.push_back(std::move(note));
+    ReadImageOptions image = command.image.options;
+    image.on_note = [&](std::string_view note) { notes.emplace_back(note); };
+    const ImageFrames frames = read_image_frames(command.image.path, image, work);
+    image.frame = 1;
+    const Grid grid = read_grid(command.image.path, image, work);
+    SegmentOptions options = command.options;
+    options.drawn_on = grid;
+    reading.lap("read");
+    MovingSegmentation result = kontur::segment_moving(contours, grid, times_of(command, contours, frames), options, work);
+    result.seconds.insert(result.seconds.begin(), seconds.begin(), seconds.end());
+    put_notes_first(notes, result.warnings);
+
+    WriteMaskOptions mask = command.mask;
+    mask.provenance = provenance(contours, grid, result.moments.front().segmentation.report);
+    for (auto& digest : input_digests(command, work)) mask.provenance.push_back(std::move(digest));
+    if (command.date) mask.provenance.emplace_back("date", utc_date());
+    Outputs outputs;
+    const auto write = [&](const fs::path& target, const auto& writer) {
+        if (!target.empty()) outputs.write(target, writer);
+        work.check();
+    };
+    write(command.output, [&](const fs::path& path) { write_masks(path, result.masks, frames.step_s, mask); });
+    write(command.volumes, [&](const fs::path& path) { write_file_atomically(path, csv_of(result, frames.step_s)); });
+    write(command.report, [&](const fs::path& path) { write_file_atomically(path, json_of(result, mask.provenance)); });
+    outputs.commit();
+    for (const std::string& warning : result.warnings) console.warn(warning);
+    console.print(summary_of(command, result));
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "commands.h"
+
+namespace kontur::app {
+
+/// Whether contours of several moments were drawn, or a curve over time is wanted.
+bool is_moving(const SegmentCommand& command, const ContourSet& contours);
+
+/// Throws Error(invalid_input) for options of `segment` that are about one moment alone.
+void check_moving_words(const SegmentCommand& command);
+
+/// Segments an object that moves: a mask in each frame of a 4D image, and its volumes. Writes and prints as `segment` does.
+void segment_moving(const SegmentCommand& command, ReadContours contours, Console& console);
+
+}  // namespace kontur::app

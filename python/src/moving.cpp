@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings.h"
+#include "fields.h"
+#include "kontur/segment_moving.h"
+#include "points.h"
+#include "segment_keywords.h"
+
+namespace kontur::python {
+namespace {
+
+py::array_t<double> values_at(const MovingFunction& function, const ArrayOf<double>& points, double time, int threads) {
+    py::array_t<double> values(leading_shape(points));
+    const std::span out(values.mutable_data(), static_cast<std::size_t>(values.size()));
+    const ReleasedLock released;
+    function.values(span_of(points), time, out, {.threads = threads});
+    return values;
+}
+
+void bind_function(py::module_& m) {
+    py::class_<MovingFunction> function(m, "MovingFunction", R"(f(x, t) of an object that moves. Immutable.
+
+Functions at some moments, and between them how their values run. Calling it gives values.
+
+Parameters
+----------
+times : sequence of float
+    Moments, which rise: frames, from 1, or seconds.
+functions : sequence of ImplicitFunction
+    One for each of them.
+cycle : float, optional
+    The motion repeats after so long; None: nothing moves before the first moment and after the last.
+)");
+    constructor(
+        function,
+        [](std::vector<double> times, std::vector<ImplicitFunction> functions, std::optional<double> cycle) {
+            return MovingFunction(TimeCourse(std::move(times), cycle), std::move(functions));
+        },
+        py::arg("times"), py::arg("functions"), py::arg("cycle") = py::none());
+    function.def_property_readonly(
+        "times", [](const MovingFunction& f) { return f.course().times(); }, "list of float: the moments.");
+    function.def_property_readonly(
+        "cycle", [](const MovingFunction& f) { return f.course().cycle(); }, "float or None");
+    function.def_property_readonly(
+        "functions", [](const MovingFunction& f) { return f.functions(); }, "list of ImplicitFunction: at the moments.");
+    method(function, "values", R"(Values of f at points and one time.
+
+Parameters
+----------
+points : array_like, shape (..., 3)
+    mm (LPS).
+time : float
+    Frame, from 1, or seconds, as the contours had it.
+threads : int
+    0: the machine's. The values do not depend on it.
+
+Returns
+-------
+ndarray, shape (...), float64
+    About the distance to the surface in mm close to it, > 0 inside.
+)",
+           &values_at, py::arg("points"), py::arg("time"), kThreads);
+    method(function, "__call__", "The same as `values`.", &values_at, py::arg("points"), py::arg("time"), kThreads);
+    function.def("__repr__", [](const MovingFunction& f) {
+        return py::str("<MovingFunction, {} moments>").format(f.functions().size());
+    });
+    function.def("__reduce__", [](const py::object& self) {
+        return py::make_tuple(py::type::of(self),
+                              py::make_tuple(self.attr("times"), self.attr("functions"), self.attr("cycle")));
+    });
+}
+
+void bind_results(py::module_& m) {
+    py::class_<VolumeCurve> curve(m, "VolumeCurve", "A volume over time.");
+    Fields(curve)
+        .field("volumes_ml", &VolumeCurve::volumes_ml, "list of float: of the masks.")
+        .field("largest", &VolumeCurve::largest, "int: which of them, from 0.")
+        .field("smallest", &VolumeCurve::smallest, "int")
+        .picklable();
+    curve.def_property_readonly("stroke_ml", &VolumeCurve::stroke_ml, "float: the largest less the smallest.");
+    curve.def_property_readonly("ejection_fraction", &VolumeCurve::ejection_fraction,
+                                "float: of the largest volume, from 0 to 1.");
+    py::class_<DrawnMoment> moment(m, "DrawnMoment", "A moment at which something was drawn.");
+    moment.def_readonly("time", &DrawnMoment::time, "float: frame, from 1, or seconds.");
+    moment.def_readonly("contours", &DrawnMoment::contours, "int: drawn at it.");
+    moment.def_readonly("carried", &DrawnMoment::carried, "int: sections in planes that were drawn at other moments alone.");
+    moment.def_readonly("segmentation", &DrawnMoment::segmentation, "Segmentation: of this moment.");
+    py::class_<MovingSegmentation> type(m, "MovingSegmentation", "What `segment_moving` made.");
+    type.def_readonly("times", &MovingSegmentation::times, "list of float");
+    type.def_readonly("masks", &MovingSegmentation::masks, "list of Mask: at these times.");
+    type.def_readonly("function", &MovingSegmentation::function, "MovingFunction: f(x, t) > 0 inside.");
+    type.def_readonly("moments", &MovingSegmentation::moments, "list of DrawnMoment");
+    type.def_readonly("volumes", &MovingSegmentation::volumes, "VolumeCurve: at these times.");
+    type.def_readonly("warnings", &MovingSegmentation::warnings, "list of str: choices made for the user and doubts.");
+    type.def_property_readonly(
+        "seconds",
+        [](const MovingSegmentation& made) {
+            py::dict seconds;
+            for (const auto& [stage, duration] : made.seconds) seconds[py::str(stage)] = duration;
+            return seconds;
+        },
+        "dict of str to float: wall time by stage.");
+    type.def("__repr__", [](const MovingSegmentation& s) {
+        return py::str("<MovingSegmentation: {} masks, {} moments>").format(s.masks.size(), s.moments.size());
+    });
+}
+
+}  // namespace
+
+void bind_moving(py::module_& m) {
+    bind_function(m);
+    bind_results(m);
+    define(
+        m, "is_moving", "Whether contours were drawn at different moments, as `segment_moving` takes them.",
+        [](const ContourSet& contours) { return is_moving(contours); }, py::arg("contours"));
+    const auto keywords = segment_keywords();
+    define(
+        m, "segment_moving", R"(Contours drawn at some moments to masks at all times.
+
+Each moment at which something was drawn is segmented by itself, as `segment` does. Where little was drawn, sections in planes
+that were drawn at other moments follow from those. The image's voxels are not looked at. The same bytes for any number of
+threads, and the same as the command line's. Other Python threads run meanwhile.
+
+Parameters
+----------
+contours : ContourSet
+    Each contour with a `frame`, or each with a `time_s`; `cycle_frames` or `cycle_s` where the motion repeats.
+grid : Grid
+times : sequence of float
+    At which masks are made, in the contours' unit, such as range(1, 21).
+@threads
+progress : callable, optional
+    As for `segment`.
+stop : object with is_set(), optional
+@options
+
+Returns
+-------
+MovingSegmentation
+
+Raises
+------
+InvalidInputError
+    As `segment` does, and for contours of which some have no moment, or one that is not within the times or the cycle.
+SingularSystemError, TooLargeError, CancelledError
+
+Examples
+--------
+>>> case = kontur.phantom_case("kidney_radial6")
+>>> drawn = [kontur.Contour(c.points, c.plane, frame=frame) for frame in (1, 5) for c in case.contours]
+>>> moving = kontur.segment_moving(kontur.ContourSet(drawn, cycle_frames=8), case.grid, range(1, 9))
+>>> len(moving.masks), moving.volumes.stroke_ml
+(8, 0.0)
+>>> bool(moving.function(case.grid.bounds_mm.mean(0), 2.5) == moving.function(case.grid.bounds_mm.mean(0), 1))
+True
+)",
+        [keywords](const ContourSet& contours, const Grid& grid, const std::vector<double>& times, int threads,
+                   const py::object& progress, const py::object& stop, const py::kwargs& given) {
+            const SegmentOptions options = keywords.parse("segment_moving", given);
+            return run({progress, stop, threads},
+                       [&](const Work& work) { return segment_moving(contours, grid, times, options, work); });
+        },
+        py::arg("contours"), py::arg("grid"), py::arg("times"), py::kw_only(), kThreads, kProgress, kStop,
+        KeywordText(keywords));
+}
+
+}  // namespace kontur::python

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Contours drawn at some moments, masks at all of them."""
+import os
+import pickle
+import subprocess
+
+import kontur
+import numpy
+import pytest
+
+FRAMES = 8
+
+
+def ball(frame, radius):
+    angles = numpy.linspace(0, 2 * numpy.pi, 48, endpoint=False)
+    contours = []
+    for z in (-12, -4, 4, 12):
+        r = numpy.sqrt(radius**2 - z**2)
+        contours.append(kontur.Contour(numpy.c_[r * numpy.cos(angles), r * numpy.sin(angles), 0 * angles + z], frame=frame))
+    return contours
+
+
+@pytest.fixture(name="contours", scope="module")
+def contours_fixture():
+    return kontur.ContourSet(ball(1, 20) + ball(5, 16), name="ball", cycle_frames=FRAMES)
+
+
+@pytest.fixture(name="grid", scope="module")
+def grid_fixture():
+    return kontur.grid_around([[-24, -24, -24], [24, 24, 24]], [2, 2, 2], 0)
+
+
+@pytest.fixture(name="made", scope="module")
+def made_fixture(contours, grid):
+    return kontur.segment_moving(contours, grid, range(1, FRAMES + 1))
+
+
+def test_masks_volumes_and_the_function(made, grid):
+    assert len(made.masks) == FRAMES and made.times == list(range(1, FRAMES + 1))
+    assert made.volumes.volumes_ml == pytest.approx([mask.volume_ml for mask in made.masks])
+    assert (made.volumes.largest, made.volumes.smallest) == (0, 4)
+    assert made.volumes.ejection_fraction == pytest.approx(1 - 0.8**3, abs=0.03)
+    assert [(m.time, m.contours, m.carried) for m in made.moments] == [(1, 4, 0), (5, 4, 0)]
+    k, j, i = numpy.indices(grid.shape)
+    affine = numpy.array(grid.index_to_mm)
+    centres = numpy.stack([i, j, k], -1) @ affine[:3, :3].T + affine[:3, 3]
+    for frame in (1, 3, 7):
+        assert numpy.array_equal(made.function(centres, frame) > 0, made.masks[frame - 1].values.astype(bool))
+    assert made.function.values([18, 0, 0], 3).shape == ()
+
+
+def test_contours_keep_their_moment(contours, tmp_path):
+    assert kontur.is_moving(contours) and not kontur.is_moving(contours[:4])
+    assert contours[4].frame == 5 and contours[4].time_s is None
+    assert pickle.loads(pickle.dumps(contours)) == contours
+    assert kontur.Contour(contours[0].points, contours[0].plane) != contours[0]
+    kontur.write_contours(tmp_path / "a.json", contours)
+    assert kontur.read_contours(tmp_path / "a.json") == contours
+    with pytest.raises(kontur.InvalidInputError, match="contour 1 was drawn in frame 1 and contour 5 in frame 5"):
+        kontur.check_contours(contours)
+
+
+def test_the_function_comes_through_a_pickle(made):
+    again = pickle.loads(pickle.dumps(made.function))
+    assert again([1, 2, 19], 2.5) == made.function([1, 2, 19], 2.5)
+    assert (again.times, again.cycle) == ([1, 5], FRAMES)
+
+
+def test_the_command_line_makes_the_same_masks(contours, grid, made, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    kontur.write_contours(tmp_path / "a.json", contours)
+    kontur.write_mask(tmp_path / "one.nii.gz", made.masks[0])
+    one = nibabel.load(tmp_path / "one.nii.gz")
+    nibabel.save(nibabel.Nifti1Image(numpy.zeros((*one.shape, FRAMES), numpy.int16), one.affine), tmp_path / "cine.nii.gz")
+    subprocess.run([os.environ["KONTUR_CLI"], "segment", tmp_path / "a.json", "--image", tmp_path / "cine.nii.gz", "--output",
+                    tmp_path / "masks.nii.gz"], check=True)
+    masks = numpy.asarray(nibabel.load(tmp_path / "masks.nii.gz").dataobj)
+    for n, mask in enumerate(made.masks):
+        assert numpy.array_equal(masks[..., n].T, mask.values)
+
+
+def test_bad_input_is_refused(contours, grid):
+    with pytest.raises(kontur.InvalidInputError, match="contour 5 lies at frame 5, and the image's frames go from 1 to 4"):
+        kontur.segment_moving(contours, grid, range(1, 5))
+    with pytest.raises(kontur.InvalidInputError, match="moment 2 is at 1, not after 1"):
+        kontur.MovingFunction([1, 1], [kontur.ImplicitFunction("biharmonic", [0, 0, 0], 1, [[0, 0, 0]], [1], [0, 0, 0, 0])] * 2)

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "kontur/base/work.h"
+#include "kontur/io/image.h"
+#include "kontur/io/images/frames.h"
+
+namespace kontur {
+
+/// How many frames an image has, and how far apart they are where the file says so (NIfTI). Another image than NIfTI is read
+/// for that where it has a single frame. Throws as read_image does.
+ImageFrames read_image_frames(const std::filesystem::path& path, const ReadImageOptions& options = {},
+                              const Work& work = {});
+
+/// Writes masks of one grid as the frames of one file: .nii or .nii.gz. Throws Error(unsupported) for another name, and
+/// Error(invalid_input) for no mask, masks of different grids and as write_mask does.
+void write_masks(const std::filesystem::path& path, std::span<const Mask> masks, std::optional<double> step_s = {},
+                 const WriteMaskOptions& options = {});
+
+/// Throws Error(unsupported), as write_masks does, for a name of a format that holds one frame.
+void check_frames_name(const std::filesystem::path& path);
+
+}  // namespace kontur

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kontur segment of contours drawn in several frames: masks of all frames, volumes, refusals."""
+import csv
+import json
+
+import nibabel
+import numpy
+import pytest
+from support import circle, kontur, names, succeed
+
+FRAMES = 8
+SPACING = 1.5
+HALF = 18.0
+
+
+def radius(frame):
+    """Of the ball, mm: the largest in frame 1, the smallest in frame 5."""
+    return 11 + 3 * numpy.cos(2 * numpy.pi * (frame - 1) / FRAMES)
+
+
+@pytest.fixture(name="cine")
+def cine_fixture(tmp_path):
+    """An empty image of 8 frames, 40 ms apart, in LPS from -18 mm on."""
+    affine = numpy.diag([-SPACING, -SPACING, SPACING, 1.0])
+    affine[:3, 3] = HALF, HALF, -HALF
+    image = nibabel.Nifti1Image(numpy.zeros((25, 25, 25, FRAMES), numpy.int16), affine)
+    image.set_sform(affine, 1)
+    image.header.set_xyzt_units("mm", "msec")
+    image.header["pixdim"][4] = 40
+    nibabel.save(image, tmp_path / "cine.nii.gz")
+    return tmp_path / "cine.nii.gz"
+
+
+def ball(frame, offsets=(-6.0, -2.0, 2.0, 6.0)):
+    planes = [circle("z", offset, center=(0, 0, 0), radius=radius(frame)) for offset in offsets]
+    for plane in planes:
+        plane["contours"][0]["frame"] = frame
+    return planes
+
+
+def write(path, planes, **more):
+    path.write_text(json.dumps({"frame": "LPS mm", "structure": "ball", "planes": planes, **more}))
+    return path
+
+
+@pytest.fixture(name="contours")
+def contours_fixture(tmp_path):
+    return write(tmp_path / "ball.json", ball(1) + ball(5), cycle_frames=FRAMES)
+
+
+def refusal(*words):
+    result = kontur("segment", *words)
+    assert result.returncode == 65, result
+    return result.stderr
+
+
+def test_masks_of_all_frames_and_their_volumes(tmp_path, cine, contours):
+    said = succeed("segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz", "--volumes", tmp_path / "v.csv",
+                   "--report", tmp_path / "r.json")
+    masks = nibabel.load(tmp_path / "masks.nii.gz")
+    assert masks.shape == (25, 25, 25, FRAMES)
+    assert numpy.abs(masks.affine - nibabel.load(cine).affine).max() < 1e-5
+    assert masks.header["pixdim"][4] == pytest.approx(0.04)
+    assert masks.header.get_xyzt_units() == ("mm", "sec")
+    rows = list(csv.DictReader((tmp_path / "v.csv").open()))
+    voxels = numpy.asarray(masks.dataobj).sum((0, 1, 2))
+    assert [float(row["volume_ml"]) for row in rows] == pytest.approx(voxels * SPACING**3 / 1000, abs=1e-3)
+    assert [row["frame"] for row in rows] == [str(n + 1) for n in range(FRAMES)]
+    assert [row["contours"] for row in rows] == ["4", "0", "0", "0", "4", "0", "0", "0"]
+    assert [row["phase"] for row in rows] == ["largest", "", "", "", "smallest", "", "", ""]
+    assert float(rows[2]["time_s"]) == pytest.approx(0.08)
+    truth = 1 - (radius(5) / radius(1)) ** 3
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["ejection_fraction"] == pytest.approx(truth, abs=0.03)
+    assert (report["largest_frame"], report["smallest_frame"]) == (1, 5)
+    assert "ejection fraction" in said and "largest in frame 1" in said
+
+
+def test_bytes_do_not_depend_on_threads(tmp_path, cine, contours):
+    for threads in (1, 2):
+        succeed("segment", contours, "--image", cine, "--output", tmp_path / f"{threads}.nii.gz", "--threads", threads)
+    assert (tmp_path / "1.nii.gz").read_bytes() == (tmp_path / "2.nii.gz").read_bytes()
+
+
+def test_a_cycle_may_be_given_as_an_option_and_times_in_seconds(tmp_path, cine, contours):
+    succeed("segment", contours, "--image", cine, "--output", tmp_path / "frames.nii.gz")
+    planes = ball(1) + ball(5)
+    for plane in planes:
+        contour = plane["contours"][0]
+        contour["time_s"] = 0.04 * (contour.pop("frame") - 1)
+    in_seconds = write(tmp_path / "seconds.json", planes)
+    succeed("segment", in_seconds, "--image", cine, "--output", tmp_path / "seconds.nii.gz", "--cycle", 0.32)
+    one, other = (numpy.asarray(nibabel.load(tmp_path / f"{name}.nii.gz").dataobj) for name in ("frames", "seconds"))
+    assert numpy.array_equal(one, other)
+    result = kontur("segment", in_seconds, "--image", cine, "--output", tmp_path / "rest.nii.gz")
+    assert result.returncode == 0 and "nothing moves before the first and after the last drawn moment" in result.stderr
+
+
+def test_trace_and_convert_say_which_frame_contours_are_of(tmp_path, cine, contours):
+    succeed("segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz")
+    for frame in (1, 5):
+        succeed("trace", tmp_path / "masks.nii.gz", "--frame", frame, "--output", tmp_path / f"{frame}.json")
+        planes = json.loads((tmp_path / f"{frame}.json").read_text())["planes"]
+        assert {contour["frame"] for plane in planes for contour in plane["contours"]} == {frame}
+    succeed("segment", tmp_path / "1.json", tmp_path / "5.json", "--image", cine, "--cycle", FRAMES, "--output", tmp_path / "again.nii.gz")
+    one, other = (numpy.asarray(nibabel.load(tmp_path / f"{name}.nii.gz").dataobj) for name in ("masks", "again"))
+    assert 2 * (one & other).sum() / (one.sum() + other.sum()) > 0.95
+    succeed("convert", tmp_path / "1.json", tmp_path / "third.json", "--frame", 3)
+    assert '"frame": 3' in (tmp_path / "third.json").read_text()
+    result = kontur("convert", tmp_path / "1.json", tmp_path / "lost.mrk.json")
+    assert result.returncode == 0 and "has no room for the frame or time of contours" in result.stderr
+
+
+def test_a_cohort_has_volumes_of_what_moves(tmp_path, cine, contours):
+    (tmp_path / "cases.csv").write_text(f"contours,image,output,volumes\n{contours},{cine},{tmp_path}/out.nii.gz,{tmp_path}/out.csv\n")
+    succeed("batch", tmp_path / "cases.csv", "--summary", tmp_path / "summary.json")
+    [case] = json.loads((tmp_path / "summary.json").read_text())["cases"]
+    assert case["mask"]["volume_ml"] == max(case["volumes_ml"]) > 0
+    assert case["ejection_fraction"] == pytest.approx(1 - (radius(5) / radius(1)) ** 3, abs=0.03)
+    assert (tmp_path / "out.csv").exists()
+
+
+def test_inspect_lists_the_frames(contours):
+    [facts] = json.loads(succeed("inspect", contours, "--json"))
+    assert (facts["frames"], facts["cycle_frames"], facts["problems"]) == ([1, 5], 8, [])
+
+
+def test_what_cannot_be_is_refused_in_one_sentence_and_leaves_nothing(tmp_path, cine, contours):
+    output = ("--output", tmp_path / "masks.nii.gz")
+    image = ("--image", cine, *output)
+    before = names(tmp_path)
+    late = write(tmp_path / "late.json", ball(1) + ball(9))
+    assert "contour 5 lies at frame 9, and the image's frames go from 1 to 8" in refusal(late, *image)
+    mixed = write(tmp_path / "mixed.json", ball(1) + [circle("z", 0, center=(0, 0, 0))])
+    assert "contour 5 has no frame, and contour 1 has one" in refusal(mixed, *image)
+    assert "give a 4D --image" in refusal(contours, "--spacing-mm", 2, *output)
+    assert "--frame 2 chooses one frame" in refusal(contours, *image, "--frame", 2)
+    assert "--mesh is of one moment" in refusal(contours, *image, "--mesh", tmp_path / "m.stl")
+    assert "a cycle of 4 goes from 1 to before 5" in refusal(contours, *image, "--cycle", 4)
+    still = write(tmp_path / "still.json", ball(1))
+    assert "--cycle is for contours that were drawn at several moments" in refusal(still, *image, "--frame", 1, "--cycle", 8)
+    result = kontur("segment", contours, "--image", cine, "--output", tmp_path / "masks.nrrd")
+    assert result.returncode == 69 and "are written as .nii or .nii.gz" in result.stderr
+    result = kontur("suggest", contours)
+    assert result.returncode == 65 and "contour 1 was drawn in frame 1 and contour 5 in frame 5" in result.stderr
+    assert set(names(tmp_path)) - set(before) == {"late.json", "mixed.json", "still.json"}

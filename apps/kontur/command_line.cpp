@@ -236,6 +236,14 @@ void add_fitting(CLI::App& sub, Command& command, CLI::Option* image) {
         sub.get_option(name)->needs(image);
 }
 
+/// All options but some do not go with one.
+void refuse_beside(CLI::App& sub, CLI::Option& one, const std::vector<std::string>& allowed) {
+    for (CLI::Option* option : sub.get_options())
+        if (option != &one && !option->get_lnames().empty() &&
+            std::ranges::find(allowed, "--" + option->get_lnames().front()) == allowed.end())
+            option->excludes(&one);
+}
+
 void add_segment(CLI::App& app, Invocation& invocation) {
     Binder<SegmentCommand> bind(app, invocation, "segment", "Contours in; mask, surface, picture and report out",
                                 "kontur segment contours.json --image ct.nii.gz --output liver.nii.gz --mesh liver.stl \\\n"
@@ -288,6 +296,16 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.quiet();
 }
 
+/// 3D Slicer has a flag for each curve.
+void add_slicer_curves(CLI::App& sub, std::vector<std::filesystem::path>& files) {
+    const std::vector<std::string> curves = slicer_curve_flags();
+    sub.add_option(curves[0], files, "Curves (.mrk.json); again for more")->type_name("FILE")->allow_extra_args(false);
+    constexpr const char* kHidden = "";
+    for (std::size_t n = 1; n < curves.size(); ++n)
+        sub.add_option_function<std::string>(curves[n], [&files](const std::string& file) { files.emplace_back(file); })
+            ->group(kHidden);
+}
+
 /// 3D Slicer's parser knows no hyphens in flags.
 void add_slicer(CLI::App& app, Invocation& invocation) {
     Binder<SlicerCommand> bind(app, invocation, "slicer", "Work as a command-line module of 3D Slicer (docs/slicer.md)",
@@ -295,13 +313,7 @@ void add_slicer(CLI::App& app, Invocation& invocation) {
     SlicerCommand& c = *bind.command;
     bind.sub->set_version_flag("--xml", slicer_description(c), "Print the module's description");
     bind.option("--reference", c.reference, "FILE", "Image that was drawn on")->required();
-    const std::vector<std::string> curves = slicer_curve_flags();
-    bind.option(curves[0], c.contours, "FILE", "Curves (.mrk.json); again for more")->allow_extra_args(false);
-    constexpr const char* kHidden = "";
-    for (std::size_t n = 1; n < curves.size(); ++n)
-        bind.sub
-            ->add_option_function<std::string>(curves[n], [&c](const std::string& file) { c.contours.emplace_back(file); })
-            ->group(kHidden);
+    add_slicer_curves(*bind.sub, c.contours);
     add_curves(*bind.sub, c.read.curves);
     bind.option("--mask", c.output_mask, "FILE", "Label map to write");
     bind.option("--model", c.output_model, "FILE", "Surface to write");
@@ -364,8 +376,10 @@ void add_correct(CLI::App& app, Invocation& invocation) {
         "MASK", c.mask.path,
         "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG); with --image also a closed surface (STL, PLY, OBJ) or an "
         "RTSTRUCT");
-    bind.word("CORRECTIONS", c.corrections,
-              "Closed contours replace the outline in their plane, open ones a piece of it: .json, .mrk.json or RTSTRUCT");
+    bind.word(
+        "CORRECTIONS", c.corrections,
+        "Closed contours replace the outline in their plane, open ones a piece of it: .json, .mrk.json or RTSTRUCT; several "
+        "files are merged");
     bind.option("-o,--output", c.output, "FILE",
                 "Label map to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz or, with --image, .dcm (SEG)")
         ->required();
@@ -472,6 +486,31 @@ void add_fill(CLI::App& app, Invocation& invocation) {
 }
 
 /// As `add_slicer`; the flags are its own, since "--output" names no node of a panel.
+void add_slicer_correct(CLI::App& app, Invocation& invocation) {
+    Binder<SlicerCorrectCommand> bind(
+        app, invocation, "slicer-correct",
+        "Work as a command-line module of 3D Slicer that corrects a label map (docs/slicer.md)",
+        "kontur slicer-correct --xml");
+    CorrectCommand& c = bind.command->correct;
+    bind.sub->set_version_flag("--xml", slicer_description(*bind.command), "Print the module's description");
+    bind.option("--labels", c.mask.path, "FILE", "Label map to correct")->required();
+    bind.sub
+        ->add_option_function<std::int64_t>(
+            "--label", [&c](std::int64_t label) { c.label = label == 0 ? std::nullopt : std::optional(label); },
+            "Which label is corrected; 0: the only one")
+        ->type_name("N")
+        ->default_str("0");
+    bind.option("--image", c.image, "FILE", "Image that was segmented");
+    add_slicer_curves(*bind.sub, c.corrections);
+    add_curves(*bind.sub, c.read.curves);
+    add_choice<bool>(*bind.sub, "--loose", c.options.drop_loose, {{"keep", false}, {"drop", true}},
+                     "What becomes of pieces that a correction cuts off");
+    bind.defaulted("--reach", c.options.reach, "FACTOR", "How far a correction is carried on, from 0.25 to 4");
+    bind.option("--corrected", c.output, "FILE", "Label map to write");
+    add_threads(*bind.sub, c.threads);
+    bind.option("--returnparameterfile", bind.command->return_parameters, "FILE", "Values to write for 3D Slicer");
+}
+
 void add_slicer_fill(CLI::App& app, Invocation& invocation) {
     Binder<SlicerFillCommand> bind(app, invocation, "slicer-fill",
                                    "Work as a command-line module of 3D Slicer that fills label maps (docs/slicer.md)",
@@ -490,9 +529,14 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
     Binder<SuggestCommand> bind(app, invocation, "suggest", "Planes in which to draw next, and how sure the surface is",
                                 "kontur suggest contours.json --image ct.nii.gz --planes 3 --output planes.json");
     SuggestCommand& c = *bind.command;
-    bind.word("CONTOURS", c.contours,
-              "Contours of one object: .json, .mrk.json, .vtk, .vtp or RTSTRUCT; several files are merged");
+    bind.option("CONTOURS", c.contours, "",
+                "Contours of one object: .json, .mrk.json, .vtk, .vtp or RTSTRUCT; several files are merged. With --mask: "
+                "corrections drawn so far");
     CLI::Option* image = bind.option("--image", c.image.path, "FILE", "Image or DICOM folder that was drawn on");
+    CLI::Option* mask = bind.option("--mask", c.mask, "FILE",
+                                    "Mask or label map to be corrected: planes in which its border is unlike the image");
+    mask->needs(image);
+    bind.option("--label", c.label, "N", "The label of the mask; needed when there are several")->needs(mask);
     bind.defaulted("--planes", c.planes, "N", "How many")->check(between(1, kMostPlanes));
     bind.defaulted("--skip", c.skip, "N", "Pass over the N best ones, and what runs along them")
         ->check(between(0, kMostPlanes));
@@ -507,6 +551,13 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
     add_curves(*bind.sub, c.read.curves);
     bind.flag("--json", c.json, "Print JSON");
     add_fitting(*bind.sub, c, image);
+    refuse_beside(*bind.sub, *mask,
+                  {"--among", "--curves", "--empty-planes", "--frame", "--json", "--label", "--output", "--planes", "--roi",
+                   "--sketch", "--skip", "--threads", "--allow-missing-geometry", "--prefer", "--resample-slices",
+                   "--series", "--volume", "--image", "--help"});
+    bind.sub->final_callback([&c] {
+        if (c.contours.empty() && c.mask.empty()) throw CLI::RequiredError("CONTOURS");
+    });
     bind.quiet();
 }
 
@@ -672,6 +723,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_derive(app, invocation);
     add_fill(app, invocation);
     add_slicer_fill(app, invocation);
+    add_slicer_correct(app, invocation);
     add_suggest(app, invocation);
     add_compare(app, invocation);
     add_inspect(app, invocation);

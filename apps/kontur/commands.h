@@ -110,7 +110,7 @@ void run(const TraceCommand& command, Console& console);
 struct CorrectCommand {
     ImageInput mask;
     std::optional<std::int64_t> label;
-    std::filesystem::path corrections;
+    std::vector<std::filesystem::path> corrections;
     ReadContoursOptions read;
     std::optional<std::string> mask_roi;  ///< of an RTSTRUCT that holds the mask
     std::filesystem::path image;          ///< that shows the object, and what a SEG refers to; empty: none
@@ -121,6 +121,13 @@ struct CorrectCommand {
     int threads = 0;  ///< 0: the machine's
 };
 void run(const CorrectCommand& command, Console& console);
+
+/// The same as a command-line module of 3D Slicer.
+struct SlicerCorrectCommand {
+    CorrectCommand correct;
+    std::filesystem::path return_parameters;  ///< as SlicerCommand's
+};
+void run(const SlicerCorrectCommand& command, Console& console);
 
 /// Makes structures of structures by rules.
 struct DeriveCommand {
@@ -166,6 +173,8 @@ struct SuggestCommand {
     int skip = 0;                        ///< best ones passed over
     std::filesystem::path empty_planes;  ///< in which nothing of the object is seen; empty: not given
     PlaneChoice among = PlaneChoice::any;
+    std::filesystem::path mask;            ///< of others, of which planes are to be looked at; empty: contours are fitted
+    std::optional<std::int64_t> label;     ///< of it
     std::filesystem::path output, sketch;  ///< planes; predicted outlines in them; empty: not asked for
     bool json = false;
     SegmentOptions options;

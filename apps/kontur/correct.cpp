@@ -34,11 +34,11 @@ void check_image_needed(const CorrectCommand& command) {
                     fmt::format("{} holds {}, which has no voxels; give the image that shows it with --image",
                                 command.mask.path.string(), kind == FileKind::mesh ? "a surface" : "contours"));
     if (kind != FileKind::image && command.label)
-        throw Error(ErrorKind::invalid_input, fmt::format("--label is for label maps, and {} is none; leave it out",
-                                                          command.mask.path.string()));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("--label is for label maps, and {} is none; leave it out", command.mask.path.string()));
     if (kind != FileKind::contours && command.mask_roi)
-        throw Error(ErrorKind::invalid_input, fmt::format("--mask-roi is for an RTSTRUCT, and {} is none; leave it out",
-                                                          command.mask.path.string()));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("--mask-roi is for an RTSTRUCT, and {} is none; leave it out", command.mask.path.string()));
     if (command.image.empty() && command.use_image == UseImage::off)
         throw Error(ErrorKind::invalid_input, "--use-image is for an --image, and none is given; leave it out");
 }
@@ -46,9 +46,11 @@ void check_image_needed(const CorrectCommand& command) {
 /// Whatever can be refused before any work is done.
 void check(const CorrectCommand& command) {
     check_image_needed(command);
-    refuse_images({command.corrections});
-    check_outputs(std::array{command.output, command.report, command.provenance_map},
-                  std::array{command.mask.path, command.corrections, command.image});
+    refuse_images(command.corrections);
+    std::vector<fs::path> inputs = command.corrections;
+    inputs.push_back(command.mask.path);
+    inputs.push_back(command.image);
+    check_outputs(std::array{command.output, command.report, command.provenance_map}, inputs);
     check_output_kind(command.output, FileKind::image);
     check_dicom_images(command.output, command.image);
     check_series(command.series, std::array{command.output});
@@ -63,27 +65,17 @@ void check(const CorrectCommand& command) {
 }
 
 Provenance provenance_of(const CorrectCommand& command, const Work& work) {
-    std::string options =
-        fmt::format("reach={} drop_loose={}", command.options.reach, command.options.drop_loose);
+    std::string options = fmt::format("reach={} drop_loose={}", command.options.reach, command.options.drop_loose);
     if (command.label) options += fmt::format(" label={}", *command.label);
     if (command.mask_roi) options += fmt::format(" mask_roi={}", *command.mask_roi);
-    std::vector<std::pair<std::string, fs::path>> inputs{{"mask", command.mask.path}, {"corrections", command.corrections}};
+    std::vector<std::pair<std::string, fs::path>> inputs{{"mask", command.mask.path}};
+    for (std::size_t n = 0; n < command.corrections.size(); ++n)
+        inputs.emplace_back(n == 0 ? "corrections" : fmt::format("corrections_{}", n + 1), command.corrections[n]);
     if (!command.image.empty()) {
         options += fmt::format(" use_image={}", name(command.use_image));
         if (!is_dicom_name(command.output)) inputs.emplace_back("image", command.image);
     }
     return made_by("correct", inputs, options, work);
-}
-
-/// What was drawn; in kontur's own files with the planes that were found right.
-Corrections read_corrections(const CorrectCommand& command, Console& console) {
-    ReadContours read = read_contours(command.corrections, command.read);
-    console.note(read.notes);
-    check_each_contour(command.corrections, read.contours);
-    Corrections corrections{std::move(read.contours), {}};
-    if (has_extension(command.corrections, ".json") && !has_extension(command.corrections, ".mrk.json"))
-        corrections.confirmed = read_confirmed_planes_json(command.corrections);
-    return corrections;
 }
 
 Facts point_facts(const Vec3& p) { return {p.x, p.y, p.z}; }
@@ -131,7 +123,7 @@ Facts report_of(const CorrectReport& report, const std::vector<std::string>& war
 }
 
 std::vector<LabelName> origin_names() {
-    return {{1, "as it was"},      {2, "added where drawn"}, {3, "removed where drawn"}, {4, "added beside"},
+    return {{1, "as it was"},      {2, "added where drawn"},  {3, "removed where drawn"}, {4, "added beside"},
             {5, "removed beside"}, {6, "added by the image"}, {7, "removed by the image"}};
 }
 
@@ -153,42 +145,51 @@ std::vector<std::string> loose_sentences(const CorrectReport& report) {
     std::vector<std::string> sentences;
     if (report.dropped_loose) return sentences;
     for (const LoosePiece& piece : report.loose_pieces)
-        sentences.push_back(fmt::format("a piece of {:.2g} ml at ({:.1f}, {:.1f}, {:.1f}) mm hangs loose now; --drop-loose "
-                                        "takes it away",
-                                        piece.volume_ml, piece.position.x, piece.position.y, piece.position.z));
+        sentences.push_back(
+            fmt::format("a piece of {:.2g} ml at ({:.1f}, {:.1f}, {:.1f}) mm hangs loose now; --drop-loose "
+                        "takes it away",
+                        piece.volume_ml, piece.position.x, piece.position.y, piece.position.z));
     return sentences;
 }
 
 }  // namespace
 
+CorrectedFile correct_file(const CorrectCommand& command, Console& console, const Work& work) {
+    CorrectedFile made{read_mask_file(command, console, work), {}, {}, {}, {}};
+    const std::optional<Image> image = shown_in(command, console, work);
+    const Mask& mask = made.file.mask;
+    ReadCorrections read = read_corrections(command.corrections, command.read);
+    made.notes = std::move(read.notes);
+    made.corrected =
+        correct({mask, ExistingSurface(mask, work), image ? &*image : nullptr}, read.corrections, command.options, work);
+    made.warnings = made.corrected.report.warnings;
+    for (const auto& some : {put(made.file, made.corrected), loose_sentences(made.corrected.report)})
+        made.warnings.insert(made.warnings.end(), some.begin(), some.end());
+    made.made = provenance_of(command, work);
+    return made;
+}
+
 void run(const CorrectCommand& command, Console& console) {
     check(command);
     const Work work = console.work(command.threads);
-    MaskFile file = read_mask_file(command, console, work);
-    const std::optional<Image> image = shown_in(command, console, work);
-    const CorrectedMask corrected = correct({file.mask, ExistingSurface(file.mask, work), image ? &*image : nullptr},
-                                            read_corrections(command, console), command.options, work);
-    std::vector<std::string> warnings = corrected.report.warnings;
-    for (const auto& some : {put(file, corrected), loose_sentences(corrected.report)})
-        warnings.insert(warnings.end(), some.begin(), some.end());
-    for (const std::string& warning : warnings) console.warn(warning);
-
-    const Provenance made = provenance_of(command, work);
+    const CorrectedFile of = correct_file(command, console, work);
+    console.note(of.notes);
+    for (const std::string& warning : of.warnings) console.warn(warning);
+    const CorrectReport& report = of.corrected.report;
     Outputs outputs;
-    outputs.write(command.output, [&](const fs::path& path) {
-        console.note(write_mask_file(path, file, command, made, console));
-    });
+    outputs.write(command.output,
+                  [&](const fs::path& path) { console.note(write_mask_file(path, of.file, command, of.made, console)); });
     if (!command.provenance_map.empty())
         outputs.write(command.provenance_map, [&](const fs::path& path) {
-            kontur::write_image(path, {corrected.mask.grid, corrected.origin}, {origin_names(), made});
+            kontur::write_image(path, {of.corrected.mask.grid, of.corrected.origin}, {origin_names(), of.made});
         });
     if (!command.report.empty())
         outputs.write(command.report, [&](const fs::path& path) {
-            write_file_atomically(path, to_json_text(report_of(corrected.report, warnings, made)));
+            write_file_atomically(path, to_json_text(report_of(report, of.warnings, of.made)));
         });
     outputs.commit();
-    if (corrected.report.image) console.note(std::array{sentence(*corrected.report.image)});
-    console.print(fmt::format("{}: {}\n", command.output.string(), sentence(corrected.report)));
+    if (report.image) console.note(std::array{sentence(*report.image)});
+    console.print(fmt::format("{}: {}\n", command.output.string(), sentence(report)));
 }
 
 }  // namespace kontur::app

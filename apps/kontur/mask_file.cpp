@@ -9,12 +9,14 @@
 #include <utility>
 #include <variant>
 
+#include "contour_files.h"
 #include "dicom_output.h"
 #include "in_faults_of.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/mesh_mask.h"
 #include "kontur/extract/rasterize.h"
+#include "kontur/io/contours/contour_json.h"
 #include "kontur/io/image.h"
 #include "kontur/io/meshes/mesh.h"
 
@@ -139,6 +141,29 @@ MaskFile read_mask_file(const CorrectCommand& command, Console& console, const W
         return kind == FileKind::mesh ? of_mesh(command, grid, console, work) : of_contours(command, grid, console);
     }
     return may_overlap(input) ? of_segment(command, input, work) : of_labels(command, input, work);
+}
+
+ReadCorrections read_corrections(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
+    ReadCorrections found;
+    Corrections& corrections = found.corrections;
+    ContourSet& all = corrections.drawing;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (const fs::path& path : paths) {
+        ReadContours read = read_contours(path, options);
+        append(found.notes, read.notes);
+        check_each_contour(path, read.contours);
+        if (has_extension(path, ".json") && !has_extension(path, ".mrk.json"))
+            append(corrections.confirmed, read_confirmed_planes_json(path));
+        if (&path == &paths.front()) {
+            all = std::move(read.contours);
+            continue;
+        }
+        append(all.contours, read.contours.contours);
+        append(all.interior, read.contours.interior);
+        append(all.exterior, read.contours.exterior);
+        append(all.empty_planes, read.contours.empty_planes);
+    }
+    return found;
 }
 
 std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected) {

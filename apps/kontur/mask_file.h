@@ -29,8 +29,25 @@ struct MaskFile {
 /// empty, and what the readers throw.
 MaskFile read_mask_file(const CorrectCommand& command, Console& console, const Work& work);
 
+/// What was drawn; in kontur's own files with the planes that were found right.
+struct ReadCorrections {
+    Corrections corrections;
+    std::vector<std::string> notes;
+};
+ReadCorrections read_corrections(const std::vector<std::filesystem::path>& paths, const ReadContoursOptions& options);
+
 /// Puts the corrected voxels in; all others keep their values. One sentence for each label that loses some.
 std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected);
+
+/// A mask's file with the corrected mask in it.
+struct CorrectedFile {
+    MaskFile file;
+    CorrectedMask corrected;
+    std::vector<std::string> notes;     ///< on the corrections as they were read
+    std::vector<std::string> warnings;  ///< of all kinds
+    Provenance made;
+};
+CorrectedFile correct_file(const CorrectCommand& command, Console& console, const Work& work);
 
 /// Writes the file with the corrected mask in the format of the name. A SEG says that the segment was made
 /// SEMIAUTOMATIC, by its source and kontur. Returns what the user should know.

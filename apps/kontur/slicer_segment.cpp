@@ -150,7 +150,7 @@ std::string curve_flag(int number) { return number == 1 ? "--contour" : fmt::for
 
 /// One for each curve, because 3D Slicer passes one node for a parameter, whatever its attribute "multiple" says. They take
 /// any type of markup: its parser means to allow "closedcurve", and refuses just that (as of August 2026).
-std::string curve_parameters(int first, int last) {
+std::string curve_parameters(int first, int last, std::string_view description) {
     std::string text;
     for (int number = first; number <= last; ++number)
         text += fmt::format(R"(    <pointfile type="any" fileExtensions=".mrk.json" coordinateSystem="lps">
@@ -158,10 +158,10 @@ std::string curve_parameters(int first, int last) {
       <label>Curve {0}</label>
       <longflag>{1}</longflag>
       <channel>input</channel>
-      <description><![CDATA[Closed curve around the object, drawn in one slice view. Open curves are stretches of the border, points lie on the surface]]></description>
+      <description><![CDATA[{2}]]></description>
     </pointfile>
 )",
-                            number, curve_flag(number));
+                            number, curve_flag(number), description);
     return text;
 }
 
@@ -171,6 +171,11 @@ std::vector<std::string> slicer_curve_flags() {
     std::vector<std::string> flags;
     for (int number = 1; number <= kMostCurves; ++number) flags.push_back(curve_flag(number));
     return flags;
+}
+
+SlicerCurves slicer_curves(std::string_view description) {
+    return {curve_parameters(1, kCurvesInFront, description),
+            curve_parameters(kCurvesInFront + 1, kMostCurves, description)};
 }
 
 void run(const SlicerCommand& command, Console& console) {
@@ -187,10 +192,13 @@ std::string slicer_description(const SlicerCommand& defaults) {
     const std::string numbers = slicer_number({"double", "quality", "Quality", "--quality",
                                                "Fraction of each curve's points that is used", o.quality, 0.05, 1, 0.05}) +
                                 slicer_threads(defaults.threads);
+    const SlicerCurves curves = slicer_curves(
+        "Closed curve around the object, drawn in one slice view. Open curves are stretches of the border, points lie on "
+        "the "
+        "surface");
     return slicer_module_description(
         kName, kPurpose,
-        fmt::format(kParameters, fmt::arg("curves", curve_parameters(1, kCurvesInFront)),
-                    fmt::arg("more_curves", curve_parameters(kCurvesInFront + 1, kMostCurves)),
+        fmt::format(kParameters, fmt::arg("curves", curves.shown), fmt::arg("more_curves", curves.more),
                     fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)), fmt::arg("numbers", numbers),
                     fmt::arg("results", slicer_results(kResults))));
 }

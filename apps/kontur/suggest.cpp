@@ -17,6 +17,7 @@
 #include "kontur/sureness/surface_evidence.h"
 #include "kontur/view/outline.h"
 #include "outputs.h"
+#include "suggest.h"
 
 namespace kontur::app {
 namespace {
@@ -29,6 +30,7 @@ void check(const SuggestCommand& command) {
     std::vector<std::filesystem::path> inputs = command.contours;
     inputs.push_back(command.image.path);
     inputs.push_back(command.empty_planes);
+    inputs.push_back(command.mask);
     for (const std::filesystem::path& path : {command.output, command.sketch})
         if (!path.empty() && !has_extension(path, ".json"))
             throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .json", path.string()));
@@ -42,8 +44,6 @@ Grid grid_around_contours(const ContourSet& contours) {
     const double spacing = box.diagonal() / kVoxelsAcross;
     return grid_around(box, {spacing, spacing, spacing}, 0.35 * box.diagonal());
 }
-
-Facts triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Facts interval(const ExpectedDice& dice) { return {{"value", dice.value}, {"low", dice.low}, {"high", dice.high}}; }
 
@@ -88,7 +88,8 @@ DrawnOn drawn_on(const SuggestCommand& command, const ContourSet& contours, cons
     return drawn_on;
 }
 
-/// The predicted outlines: to be corrected, not to be believed.
+}  // namespace
+
 ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh, const ContourSet& drawn) {
     ContourSet sketch;
     sketch.name = drawn.name;
@@ -102,10 +103,11 @@ ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh,
     return sketch;
 }
 
-}  // namespace
+Facts triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 void run(const SuggestCommand& command, Console& console) {
     check(command);
+    if (!command.mask.empty()) return run_for_mask(command, console);
     const Work work = console.work(command.threads);
     ReadContours read = read_contours_to_fit(command.contours, command.read);
     for (const std::string& note : read.notes) console.warn(note);

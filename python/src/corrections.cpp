@@ -4,6 +4,7 @@
 
 #include "bindings.h"
 #include "fields.h"
+#include "kontur/correct/suggest_to_look_at.h"
 #include "kontur/correct_mask.h"
 #include "run.h"
 #include "segment_words.h"
@@ -69,10 +70,77 @@ void bind_report(py::module_& m) {
     report.def("__str__", [](const CorrectReport& r) { return sentence(r); });
 }
 
+void bind_suggest_to_look_at(py::module_& m) {
+    py::class_<PlaneToLookAt> type(m, "PlaneToLookAt", "A plane in which a mask's border is unlike the image.");
+    type.def_readonly("plane", &PlaneToLookAt::plane, "Plane: its origin lies amid what is doubtful there.");
+    type.def_property_readonly(
+        "slice",
+        [](const PlaneToLookAt& self) -> py::object {
+            if (!self.slice) return py::none();
+            return py::make_tuple(self.slice->axis, self.slice->index);
+        },
+        "(int, int), or None: axis (0, 1, 2 for i, j, k) and index of the mask's slice, if it is one.");
+    type.def_readonly("doubtful_mm2", &PlaneToLookAt::doubtful_mm2,
+                      "float: expected area on the wrong side, by the image alone.");
+    type.def("__repr__", [](const PlaneToLookAt& s) {
+        return py::str("<PlaneToLookAt through {}, across {}>").format(py::cast(s.plane.origin), py::cast(s.plane.normal));
+    });
+    define(
+        m, "suggest_to_look_at", R"(Which planes of a mask to look at next.
+
+Those in which most voxels near the mask's border look like its other side. A hint: where a whole part is wrong, its border
+looks like any other, so a leak or a missing pole is missed.
+
+Parameters
+----------
+mask : Mask
+    Not empty.
+image : Image
+    That was segmented.
+count : int
+    Best first, each as if those before it had been looked at.
+among : {'any', 'image-slices'}
+    Planes of any direction, or slices of the mask only.
+seen : sequence of Plane
+    Looked at already: what lies near them counts less.
+threads : int
+    0: the machine's.
+
+Returns
+-------
+list of PlaneToLookAt
+    Fewer than `count` where nothing is doubtful any more.
+
+Examples
+--------
+>>> z, y, x = np.mgrid[:41, :40, :40]
+>>> ball = (z - 20) ** 2 + (y - 20) ** 2 + (x - 20) ** 2 < 12**2
+>>> bitten = ball & ~((x > 27) & (abs(z - 9) < 6))
+>>> grid = kontur.Grid((40, 40, 41), np.eye(4), frame="LPS")
+>>> image = kontur.Image(np.float32(100 * ball), grid)
+>>> [plane] = kontur.suggest_to_look_at(kontur.Mask(bitten, grid), image, among="image-slices")
+>>> plane.doubtful_mm2 > 0
+True
+)",
+        [](const Mask& mask, const Image& image, std::int64_t count, PlaneChoice among, const std::vector<Plane>& seen,
+           int threads) {
+            if (count < 1)
+                throw Error(ErrorKind::invalid_input, std::to_string(count) + " planes are asked for; at least 1 is needed");
+            return unlocked([&] {
+                const Work work{.threads = threads};
+                return suggest_to_look_at(ExistingSurface(mask, work), image, static_cast<std::size_t>(count), {among, seen},
+                                          work);
+            });
+        },
+        py::arg("mask"), py::arg("image"), py::arg("count") = 1, py::arg("among") = PlaneChoice::any,
+        py::arg("seen") = py::tuple(), kThreads);
+}
+
 }  // namespace
 
 void bind_corrections(py::module_& m) {
     bind_report(m);
+    bind_suggest_to_look_at(m);
     py::class_<CorrectedMask> corrected(m, "CorrectedMask",
                                         "A corrected mask, and how its voxels came to be what they are.");
     Fields(corrected).field("mask", &CorrectedMask::mask, "Mask").field("report", &CorrectedMask::report, "CorrectReport");

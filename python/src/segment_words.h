@@ -6,6 +6,7 @@
 #include "kontur/drawing/reconcile.h"
 #include "kontur/image/follow_image.h"
 #include "kontur/shape/fill_rule.h"
+#include "kontur/sureness/image_slice.h"
 
 namespace kontur::python {
 
@@ -33,6 +34,11 @@ template <>
 struct Words<ImageVerdict> {
     static constexpr std::array values{ImageVerdict::none,    ImageVerdict::labels, ImageVerdict::unknown,
                                        ImageVerdict::no_help, ImageVerdict::astray, ImageVerdict::used};
+};
+
+template <>
+struct Words<PlaneChoice> {
+    static constexpr std::array values{PlaneChoice::any, PlaneChoice::image_slices};
 };
 
 }  // namespace kontur::python

@@ -2,13 +2,9 @@
 #include "bindings.h"
 #include "fields.h"
 #include "kontur/suggest.h"
+#include "segment_words.h"
 
 namespace kontur::python {
-
-template <>
-struct Words<PlaneChoice> {
-    static constexpr std::array values{PlaneChoice::any, PlaneChoice::image_slices};
-};
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <map>
 
 #include "kontur/base/counted.h"
@@ -47,19 +48,20 @@ void warn_of_parts(const std::vector<CorrectedSection>& sections, const Existing
             if (section.before.holes[o] || std::any_of(outline.begin(), outline.end(), is_drawn)) continue;
             const auto is_within = [&](const Polygon2& drawn) { return is_inside(outline, drawn.front()); };
             if (std::any_of(section.after.outlines.begin(), section.after.outlines.end(), is_within)) continue;
-            warnings.push_back(fmt::format("contour {} leaves out a part of {:.0f} mm2 that the mask shows in its plane, and "
-                                           "so takes it away; draw that part, too, to keep it",
-                                           number, area(outline)));
+            warnings.push_back(
+                fmt::format("contour {} leaves out a part of {:.0f} mm2 that the mask shows in its plane, and "
+                            "so takes it away; draw that part, too, to keep it",
+                            number, area(outline)));
         }
         for (std::size_t o = 0; o < section.after.outlines.size(); ++o) {
             double nearest = std::numeric_limits<double>::infinity();
             for (const Point2& p : section.after.outlines[o])
                 nearest = std::min(nearest, -surface.value(section.plane.from_uv(p)));
             if (nearest > reach)
-                warnings.push_back(fmt::format("contour {} lies {:.0f} mm from the mask, beyond the reach of {:.0f} mm: it "
-                                               "adds a thin part; kontur segment makes whole parts of contours",
-                                               section.contours[std::min(o, section.contours.size() - 1)] + 1, nearest,
-                                               reach));
+                warnings.push_back(
+                    fmt::format("contour {} lies {:.0f} mm from the mask, beyond the reach of {:.0f} mm: it "
+                                "adds a thin part; kontur segment makes whole parts of contours",
+                                section.contours[std::min(o, section.contours.size() - 1)] + 1, nearest, reach));
         }
     }
 }
@@ -88,15 +90,33 @@ std::vector<std::size_t> loose_components(const Mask& before, const Components& 
     return loose;
 }
 
+/// How many voxels of each origin there are; eight alike, as nearly all are, count at once.
+std::array<std::int64_t, 8> counts_of(const std::vector<std::uint8_t>& origins) {
+    constexpr std::uint64_t kEight = 0x0101010101010101;
+    std::array<std::int64_t, 8> counts{};
+    std::size_t n = 0;
+    for (std::uint64_t eight = 0; n + 8 <= origins.size(); n += 8) {
+        std::memcpy(&eight, &origins[n], 8);
+        if (eight == kEight * origins[n]) counts[origins[n]] += 8;
+        else
+            for (std::size_t m = n; m < n + 8; ++m) ++counts[origins[m]];
+    }
+    for (; n < origins.size(); ++n) ++counts[origins[n]];
+    return counts;
+}
+
 void find_loose(const Mask& before, CorrectedMask& corrected, bool drop) {
+    const std::array<std::int64_t, 8> counts = counts_of(corrected.origin);
+    const auto of = [&](CorrectedVoxel voxel) { return counts[static_cast<std::size_t>(voxel)]; };
+    if (of(CorrectedVoxel::removed_drawn) + of(CorrectedVoxel::removed_carried) + of(CorrectedVoxel::removed_image) == 0)
+        return;  // nothing was cut
     const Components after = find_components(corrected.mask);
     const Grid& grid = corrected.mask.grid;
     std::map<std::size_t, std::size_t> pieces;  // of a component
     for (const std::size_t component : loose_components(before, after)) {
         pieces.emplace(component, corrected.report.loose_pieces.size());
         const auto voxels = after.sizes[component];
-        corrected.report.loose_pieces.push_back(
-            {voxels, static_cast<double>(voxels) * grid.voxel_volume_mm3() / 1000, {}});
+        corrected.report.loose_pieces.push_back({voxels, static_cast<double>(voxels) * grid.voxel_volume_mm3() / 1000, {}});
     }
     std::vector<bool> has_place(pieces.size());
     for (const ComponentRun& run : after.runs) {
@@ -109,16 +129,15 @@ void find_loose(const Mask& before, CorrectedMask& corrected, bool drop) {
         }
         for (std::size_t n = run.begin; drop && n < run.end; ++n) {
             corrected.mask.values[n] = 0;
-            corrected.origin[n] = static_cast<std::uint8_t>(before.values[n] ? CorrectedVoxel::removed_carried
-                                                                             : CorrectedVoxel::outside);
+            corrected.origin[n] =
+                static_cast<std::uint8_t>(before.values[n] ? CorrectedVoxel::removed_carried : CorrectedVoxel::outside);
         }
     }
     corrected.report.dropped_loose = drop && !pieces.empty();
 }
 
 void count(const Mask& before, CorrectedMask& corrected) {
-    std::array<std::int64_t, 8> counts{};
-    for (const std::uint8_t made : corrected.origin) ++counts[made];
+    const std::array<std::int64_t, 8> counts = counts_of(corrected.origin);
     CorrectReport& report = corrected.report;
     const auto of = [&](CorrectedVoxel voxel) { return counts[static_cast<std::size_t>(voxel)]; };
     report.added_drawn = of(CorrectedVoxel::added_drawn);
@@ -176,7 +195,7 @@ CorrectedMask correct(const MaskToCorrect& what, const Corrections& corrections,
     report.warnings = data.contradictions;
     warn_of_parts(sections, surface, report.warnings);
     work.report("correct", 0.3);
-    const SurfaceChange change = solve_change(surface, data, lengths, work);
+    SurfaceChange change = solve_change(surface, data, lengths, work);
     work.report("correct", 0.6);
     corrected.mask = changed_voxels(mask, surface, change, work);
     const std::vector<VoxelSide> drawn = drawn_voxels(sections, mask.grid);
@@ -193,6 +212,7 @@ CorrectedMask correct(const MaskToCorrect& what, const Corrections& corrections,
     corrected.origin = voxel_origins(mask, corrected.mask, drawn, by_image);
     find_loose(mask, corrected, options.drop_loose);
     count(mask, corrected);
+    corrected.change = std::make_shared<const SurfaceChange>(std::move(change));
     report.length_mm = lengths.length;
     report.reach_mm = kReachLengths * lengths.length;
     for (const CorrectedSection& section : sections)

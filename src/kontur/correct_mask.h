@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "kontur/shape/volume.h"
 
 namespace kontur {
+
+class SurfaceChange;
 
 struct CorrectOptions {
     /// Of the length that follows from the mask: how far a correction is carried on. In [0.25, 4].
@@ -60,6 +63,8 @@ struct CorrectedMask {
     Mask mask;
     std::vector<std::uint8_t> origin;
     CorrectReport report;
+    /// Of the mask's function f0, without what slices, the image and loose pieces say voxel by voxel.
+    std::shared_ptr<const SurfaceChange> change{};
 };
 
 /// Corrects a mask by what was drawn in some planes. The change is carried on to both sides of a plane over about half the

@@ -32,6 +32,7 @@
 
 // Contours to a mask, a surface and a function: of one structure, of several, of a mask to be corrected, of a label map with
 // gaps, while they are edited.
+#include "kontur/correct/suggest_to_look_at.h"
 #include "kontur/correct_mask.h"
 #include "kontur/editor.h"
 #include "kontur/fill_labels.h"

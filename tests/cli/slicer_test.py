@@ -12,8 +12,8 @@ import pytest
 from support import CENTER, KONTUR, RADIUS, ball_array, ball_planes, dice, kontur, write_nifti, write_planes
 
 FOLDER = pathlib.Path(KONTUR).parent.parent / "lib" / "slicer"
-MODULE, FILL = FOLDER / "KonturSegment", FOLDER / "KonturFill"
-BOTH = pytest.mark.parametrize("module", [MODULE, FILL], ids=lambda module: module.name)
+MODULE, FILL, CORRECT = FOLDER / "KonturSegment", FOLDER / "KonturFill", FOLDER / "KonturCorrect"
+EACH = pytest.mark.parametrize("module", [MODULE, FILL, CORRECT], ids=lambda module: module.name)
 
 # What 3D Slicer's parser knows (ModuleDescriptionParser), as far as it concerns us; anything else is an error there.
 HEADER = {"category", "title", "description", "version", "documentation-url", "license", "contributor", "acknowledgements"}
@@ -51,13 +51,13 @@ def check_value(parameter):
         assert default in [e.text for e in parameter.findall("element")]
 
 
-@BOTH
+@EACH
 def test_the_name_is_one_that_3d_slicer_runs(module):
     assert "." not in module.name
     assert os.access(module, os.X_OK)
 
 
-@BOTH
+@EACH
 def test_the_description_follows_every_rule(module):
     root = description(module)
     assert root.tag == "executable"
@@ -127,14 +127,14 @@ def run_module(scene, **outputs):
     return run_as_slicer(MODULE, scene, files)
 
 
-def run_as_slicer(module, folder, files):
-    """With the flags that 3D Slicer makes of the module's description."""
+def run_as_slicer(module, folder, files, **values):
+    """With the flags that 3D Slicer makes of the module's description; what has no value in `values` has its default."""
     words = []
     for parameter in parameters(module):
         if value := files.pop(parameter.findtext("name"), None):
             words += [parameter.findtext("longflag"), value]
         if parameter.tag in SIMPLE and parameter.findtext("channel") != "output":
-            words += [parameter.findtext("longflag"), parameter.findtext("default")]
+            words += [parameter.findtext("longflag"), values.get(parameter.findtext("name"), parameter.findtext("default"))]
     assert not files, "there is a parameter for each file"
     words += ["--returnparameterfile", folder / "returned.params"]
     return subprocess.run([module, *map(str, words)], capture_output=True, text=True, timeout=60)
@@ -221,6 +221,45 @@ def test_a_run_fills_what_was_painted_as_the_command_does(painted, with_image):
     assert ("image" in result.stdout.split("</filter-start>")[1]) == with_image, "what became of the image is said"
 
 
+@pytest.fixture
+def leaking(scene):
+    """The ball with a leak as label 2 beside another label, and three of the ball's curves."""
+    labels = 2 * ball_array()
+    labels[:, -6:, labels.shape[2] // 2 - 2 : labels.shape[2] // 2 + 3] = 2
+    labels[:3, :3, :3] = 5
+    write_nifti(scene / "labels.nii.gz", labels)
+    assert kontur("convert", scene / "labels.nii.gz", scene / "labels.nrrd").returncode == 0
+    for n, path in enumerate(sorted(scene.glob("*.mrk.json"))):
+        if n > 2:
+            path.unlink()
+    return scene
+
+
+def test_a_run_corrects_one_label_as_the_command_does(leaking):
+    curves = sorted(leaking.glob("*.mrk.json"))
+    files = {"wrongLabels": leaking / "labels.nrrd", "correctedLabels": leaking / "new.nrrd"}
+    files |= {f"curve{n}": path for n, path in enumerate(curves, start=1)}
+    result = run_as_slicer(CORRECT, leaking, files, label=2)
+    assert (result.returncode, result.stderr) == (0, ""), result
+    assert kontur("correct", leaking / "labels.nrrd", *curves, "--label", 2, "--output", leaking / "wanted.nrrd", "--report",
+                  leaking / "report.json").returncode == 0
+    voxels = [(leaking / name).read_bytes().split(b"\n\n", 1)[1] for name in ("new.nrrd", "wanted.nrrd", "labels.nrrd")]
+    assert voxels[0] == voxels[1] != voxels[2]
+    returned = check_told(CORRECT, result, leaking)
+    report = json.loads((leaking / "report.json").read_text())
+    assert returned["changedVoxels"] == str(sum(report["voxels"].values())) != "0"
+    assert float(returned["volumeMl"]) == pytest.approx(report["volume_ml"], abs=1e-3)
+    assert len(report["planes"]) == len(curves)
+
+
+def test_correcting_needs_curves_and_somewhere_to_write(leaking):
+    files = {"wrongLabels": leaking / "labels.nrrd", "curve1": next(leaking.glob("*.mrk.json"))}
+    result = run_as_slicer(CORRECT, leaking, dict(files), label=2)
+    assert result.returncode == 65 and "no label map was chosen" in result.stderr
+    result = run_as_slicer(CORRECT, leaking, {"wrongLabels": files["wrongLabels"], "correctedLabels": leaking / "new.nrrd"})
+    assert result.returncode == 65 and "no curves were chosen" in result.stderr
+
+
 def test_filling_needs_somewhere_to_write_and_spares_its_inputs(painted):
     result = run_as_slicer(FILL, painted, {"paintedLabels": painted / "painted.nrrd"})
     assert result.returncode == 65 and "no label map was chosen" in result.stderr
@@ -256,7 +295,7 @@ def test_a_failure_has_an_exit_code_a_reason_and_no_output(scene):
     assert not (scene / "mask.nrrd").exists()
 
 
-@BOTH
+@EACH
 def test_the_module_runs_through_a_link(module, tmp_path):
     (tmp_path / module.name).symlink_to(module)
     result = subprocess.run([tmp_path / module.name, "--xml"], capture_output=True)

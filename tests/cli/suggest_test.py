@@ -184,3 +184,46 @@ def test_band_is_written_as_image_and_as_property_of_a_ply(drawn, tmp_path):
     assert result.returncode == 65
     assert "contours lie in 2 different planes; of fewer than 3 nothing is known" in result.stderr
     assert not (tmp_path / "n.nii.gz").exists()
+
+
+@pytest.fixture
+def wrong(tmp_path):
+    """An image of the ball, and a mask of it as label 2 that is too wide around one slice, beside another label."""
+    ball = ball_array()
+    noise = numpy.random.default_rng(47).normal(scale=8, size=ball.shape)
+    image = write_nifti(tmp_path / "image.nii.gz", (100 * ball + noise).astype(numpy.float32))
+    k = ball.shape[2] // 2 + 4
+    labels = 2 * ball.astype(numpy.uint8)
+    labels[..., k - 2 : k + 3][ndimage.binary_dilation(ball[..., k - 2 : k + 3], iterations=4)] = 2
+    labels[:2, :2, :2] = 5
+    return write_nifti(tmp_path / "labels.nii.gz", labels), image, k
+
+
+def test_of_a_mask_the_plane_is_where_its_border_is_unlike_the_image(wrong, tmp_path):
+    mask, image, k = wrong
+    words = ["suggest", "--mask", mask, "--label", 2, "--image", image, "--among", "image-slices"]
+    found = json.loads(succeed(*words, "--json", "--output", tmp_path / "planes.json", "--sketch", tmp_path / "sketch.json"))
+    [one] = found["planes"]
+    assert one["slice"]["axis"] == "k" and abs(one["slice"]["index"] - k) <= 2, one
+    assert one["doubtful_mm2"] > 0 and "misses whole wrong parts" in found["about"]
+    [plane] = json.loads((tmp_path / "planes.json").read_text())["planes"]
+    assert plane["origin"] == pytest.approx(one["origin_mm"], abs=1e-6)
+    sketched = json.loads((tmp_path / "sketch.json").read_text())["planes"]
+    assert len(sketched[0]["contours"]) == 1
+    after = json.loads(succeed("suggest", tmp_path / "sketch.json", *words[1:], "--json"))
+    assert after["planes"][0]["slice"] != one["slice"], "the sketch confirms the plane as it is"
+    skipped = json.loads(succeed(*words, "--json", "--skip", 1))
+    assert skipped["planes"][0]["slice"] == after["planes"][0]["slice"]
+    assert f"slice k = {one['slice']['index']}; " in succeed(*words)
+
+
+@pytest.mark.parametrize("words, said", [
+    ([], "CONTOURS is required"),
+    (["--mask", "labels.nii.gz"], "--mask requires --image"),
+    (["--mask", "labels.nii.gz", "--image", "image.nii.gz"], "--label"),
+    (["--mask", "labels.nii.gz", "--image", "labels.nii.gz", "--label", "2"], "holds labels"),
+    (["--mask", "labels.nii.gz", "--image", "image.nii.gz", "--label", "2", "--kernel", "biharmonic"], "--mask excludes --kernel"),
+])
+def test_of_a_mask_what_makes_no_sense_is_refused(wrong, tmp_path, words, said):
+    result = kontur("suggest", *words, cwd=tmp_path)
+    assert result.returncode in (2, 64, 65) and said in result.stderr, result

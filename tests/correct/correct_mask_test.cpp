@@ -11,6 +11,7 @@
 #include "kontur/correct/corrected_voxels.h"
 #include "kontur/extract/trace.h"
 #include "kontur/measure/components.h"
+#include "kontur/shape/index_box.h"
 #include "support/mask_of.h"
 
 namespace kontur {
@@ -86,6 +87,48 @@ TEST(CorrectMask, CorrectionsThatRepeatTheMaskChangeNothing) {
         EXPECT_EQ(corrected.report.planes.front().kind, CorrectionKind::confirmed);
         EXPECT_EQ(sentence(corrected.report), "nothing changed: the corrections repeat the mask");
     }
+}
+
+TEST(CorrectMask, OutlinesTracedFromTheMaskChangeNothing) {
+    std::size_t drawn_planes = 0;
+    for (const Vec3& spacing : {Vec3{1, 1, 1}, Vec3{0.9, 0.9, 2.5}}) {
+        const Mask mask = test::mask_of(grid_of(spacing, 25), [](const Vec3& p) {
+            return norm(p) < 15 && distance(p, {17, 0, 0}) > 8 && !(p.y > 4 && p.z > 3);
+        });
+        std::vector<Plane> planes;
+        for (std::int64_t k = 0; k < mask.grid.size.k; k += 3)
+            planes.push_back(make_plane(mask.grid.center_mm(0, 0, k), {0, 0, 1}));
+        for (const double offset : {-8.0, -3.0, 2.0, 9.0}) planes.push_back(make_plane({0, offset, 0}, {0.2, 1, 0.4}));
+        for (const Plane& plane : planes) {
+            Corrections corrections;
+            corrections.drawing = trace(mask, std::vector{plane});
+            if (corrections.drawing.contours.empty()) continue;
+            ++drawn_planes;
+            EXPECT_EQ(correct(mask, corrections).mask.values, mask.values)
+                << spacing.z << " mm, through " << plane.origin.y << ", " << plane.origin.z;
+        }
+    }
+    EXPECT_GT(drawn_planes, 20U);
+}
+
+TEST(CorrectMask, APartOfTheGridGivesTheSameVoxels) {
+    const Dented dented;
+    const Mask whole = dented.mask;
+    const IndexBox box{{7, 5, 9}, {whole.grid.size.i - 3, whole.grid.size.j - 4, whole.grid.size.k - 2}};
+    Mask part{grid_of(whole.grid, box), {}};
+    const auto of_part = [&](const Mask& mask) {
+        std::vector<std::uint8_t> values;
+        for (std::int64_t k = box.low.k; k <= box.high.k; ++k)
+            for (std::int64_t j = box.low.j; j <= box.high.j; ++j)
+                for (std::int64_t i = box.low.i; i <= box.high.i; ++i)
+                    values.push_back(mask.values[mask.grid.offset(i, j, k)]);
+        return values;
+    };
+    part.values = of_part(whole);
+    const Corrections corrections = drawn({circle(kOblique, 16)});
+    const CorrectedMask corrected = correct(whole, corrections, {.reach = 2});
+    EXPECT_NE(corrected.mask.values, whole.values);
+    EXPECT_EQ(correct(part, corrections, {.reach = 2}).mask.values, of_part(corrected.mask));
 }
 
 TEST(CorrectMask, OneOutlineMendsADent) {

@@ -61,6 +61,17 @@ TEST(ExistingSurface, EndsWithTheImageHalfAVoxelBeyondIt) {
     EXPECT_LT(surface.value(grid.index_to_mm.apply({-9, 26, 15})), -8);
 }
 
+TEST(ExistingMesh, IsAsLargeAsTheMask) {
+    const Grid grid = turned({1, 1, 1}, 0);
+    for (const double radius : {5.0, 7.0, 12.0}) {
+        const Mask mask = ball(grid, grid.center_mm(24, 26, 15) + Vec3{0.2, 0.3, 0.1}, radius);
+        double mask_mm3 = 0;
+        for (const std::uint8_t inside : mask.values) mask_mm3 += inside;
+        EXPECT_NEAR(signed_volume_mm3(existing_mesh(ExistingSurface(mask))) / mask_mm3, 1, radius < 6 ? 0.03 : 0.02)
+            << radius;
+    }
+}
+
 TEST(ExistingMesh, IsASolidWithEachVoxelOnItsSide) {
     for (const double mirror : {1.0, -1.0}) {
         Grid grid = turned({1, 1.2, 2}, 0.2);

@@ -9,7 +9,7 @@ import pytest
 ROOT = pathlib.Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 
-MOST_WORDS_OF_DOCS = 48_400  # 45,000, and room for a page on each of four new capabilities
+MOST_WORDS_OF_DOCS = 48_750  # 45,000, and room for a page on each of four new capabilities
 MOST_WORDS_OF_A_SENTENCE = 25
 MOST_WORDS_OF_THE_MEDIAN_SENTENCE = 15
 MOST_CHARACTERS_OF_A_LINE = 120

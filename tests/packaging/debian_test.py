@@ -65,7 +65,7 @@ def test_no_binary_has_a_search_path(tree):
 
 def test_3d_slicers_modules_lie_where_its_page_says(packages):
     [folder] = re.findall(r"Debian package has it as\s`/(.*?)`", (ROOT / "docs/slicer.md").read_text())
-    assert {f"{folder}/KonturSegment", f"{folder}/KonturFill"} <= set(contents(packages["kontur"]))
+    assert {f"{folder}/KonturSegment", f"{folder}/KonturFill", f"{folder}/KonturCorrect"} <= set(contents(packages["kontur"]))
 
 
 def test_each_has_its_licence(packages, tree):

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "kontur/correct/existing_mesh.h"
+#include "kontur/extract/mesh_mask.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/image.h"
 #include "support/expect_error.h"
@@ -52,6 +54,16 @@ TEST(StoredMask, IsTheMaskByteForByteAndNamedByIt) {
     EXPECT_KONTUR_ERROR(StoredMask(mask), ErrorKind::invalid_input, "nothing to correct");
 }
 
+TEST(StoredMask, RefusesAGridThatNoMachineShouldFill) {
+    const StoredMask stored(ball({{40, 40, 40}, {}}, {20, 20, 20}, 9));
+    std::string header = stored.header();
+    const std::string size = "[40,40,40]";
+    ASSERT_NE(header.find(size), std::string::npos) << header;
+    header.replace(header.find(size), size.size(), "[2048,2048,513]");
+    EXPECT_KONTUR_ERROR(StoredMask(header, stored.packed()), ErrorKind::invalid_input,
+                        "has 2048 x 2048 x 513 voxels; at most 2147483648 are possible");
+}
+
 TEST(CorrectedMask, HasTheSameVoxelsOnAGridThatIsAPartOfItsOwn) {
     const Mask mask = ball(sheared_grid(), {22, 20, 20}, 9);
     const IndexBox box{{5, 4, 2}, {30, 29, 20}};
@@ -96,6 +108,12 @@ TEST(CorrectedMask, ItsSurfaceIsASolidAndKnowsWhoMadeIt) {
         if (origins[n] != 0) farthest_mm = std::max(farthest_mm, std::abs(mesh.points[n].z - 20));
     EXPECT_GT(farthest_mm, 2) << "carried on";
     EXPECT_LT(farthest_mm, corrected.report.reach_mm + 2);
+    const ExistingSurface surface(mask);
+    const TriangleMesh fast = corrected_mesh(surface, unshrunk_values(surface), *corrected.change, corrected.mask);
+    EXPECT_EQ(topology(fast).euler, 2);
+    EXPECT_TRUE(topology(fast).closed && topology(fast).oriented);
+    EXPECT_EQ(voxelize_mesh(fast, mask.grid).mask.values, corrected.mask.values) << "each voxel on its side";
+    EXPECT_NEAR(signed_volume_mm3(fast), signed_volume_mm3(mesh), 0.02 * signed_volume_mm3(mesh));
     Mask none = mask;
     std::fill(none.values.begin(), none.values.end(), 0);
     EXPECT_TRUE(mesh_of(none).triangles.empty());
@@ -242,6 +260,44 @@ TEST(CorrectedMask, PagesAreToldWhatTheCorrectionsComeTo) {
     here.ask({{"call", "undo"}});
     here.session.wait_for_surfaces();
     EXPECT_EQ(json::parse(here.session.greeting())["surfaces"].at(0)["correction"]["voxels"], 0);
+}
+
+TEST(CorrectedMask, AHiddenCorrectionIsNone) {
+    SessionWithMask here;
+    const json drawn = here.draw(11.5);
+    const std::vector<std::uint8_t> corrected = here.exported("mask.nii.gz");
+    const auto show = [&](bool visible) {
+        const json reply =
+            here.ask({{"call", "contour.set"}, {"id", drawn["result"]["contour"]["id"]}, {"visible", visible}});
+        ASSERT_TRUE(reply.contains("result")) << reply;
+        here.session.wait_for_surfaces();
+    };
+    show(false);
+    EXPECT_EQ(here.exported("mask.nii.gz"), here.mask.values);
+    EXPECT_EQ(json::parse(here.session.greeting())["surfaces"].at(0)["correction"]["voxels"], 0);
+    show(true);
+    EXPECT_EQ(here.exported("mask.nii.gz"), corrected);
+}
+
+TEST(CorrectedMask, PagesAreToldWhatTheLastStepChanged) {
+    SessionWithMask here;
+    const auto told = [&] {
+        here.session.wait_for_surfaces();
+        return json::parse(here.session.greeting())["surfaces"].at(0)["correction"];
+    };
+    here.draw(11.5);
+    const json first = told();
+    EXPECT_EQ(first["step"]["voxels"], first["voxels"]);
+    EXPECT_GT(first["step"]["more_ml"], 0);
+    const json point{{"call", "point.add"}, {"structure", here.id}, {"at", {20, 20, 31}}, {"kind", "interior"}};
+    ASSERT_TRUE(here.ask(point).contains("result"));
+    const json second = told();
+    EXPECT_GT(second["step"]["voxels"], 0);
+    EXPECT_LT(second["step"]["voxels"], second["voxels"]);
+    here.ask({{"call", "undo"}});
+    const json undone = told();
+    EXPECT_EQ(undone["step"]["voxels"], second["step"]["voxels"]) << "the way back";
+    EXPECT_DOUBLE_EQ(undone["step"]["more_ml"], -second["step"]["more_ml"].get<double>());
 }
 
 TEST(CorrectedMask, ImportIsOneStepThatUndoTakesBackAndRedoBringsBack) {

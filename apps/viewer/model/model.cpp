@@ -82,10 +82,13 @@ bool has_content(const State& state, Id structure) {
            std::ranges::any_of(state.contours, [&](const auto& item) { return item.second->structure == structure; });
 }
 
+bool counts(const DrawnContour& contour, const Structure& structure) { return contour.visible || !structure.mask; }
+
 ContourSet contour_set(const State& state, Id structure) {
-    ContourSet set = without_contours(structure_of(state, structure));
+    const Structure& own = structure_of(state, structure);
+    ContourSet set = without_contours(own);
     for (const auto& [id, contour] : state.contours)
-        if (contour->structure == structure) set.contours.push_back(as_contour(*contour));
+        if (contour->structure == structure && counts(*contour, own)) set.contours.push_back(as_contour(*contour));
     return set;
 }
 

@@ -118,7 +118,9 @@ std::shared_ptr<const StoredMask> mask_of(const State& state, const Structure& s
 /// Whether there is anything of it: contours, or a mask.
 bool has_content(const State& state, Id structure);
 
-/// The structure's contours as the library takes them, in the order they were made.
+/// Whether a contour is one of what its structure is made of: a hidden correction of a mask is not.
+bool counts(const DrawnContour& contour, const Structure& structure);
+/// The structure's contours as the library takes them, in the order they were made; those that count.
 ContourSet contour_set(const State& state, Id structure);
 
 /// Whether the contour is drawn in this plane: parallel to it within a degree, and all of it within half of the thickness.

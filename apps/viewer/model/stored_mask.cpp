@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::int64_t kMostVoxels = std::int64_t{1} << 33;  ///< of a grid: whole masks have a byte for each
+constexpr std::int64_t kMostVoxels = std::int64_t{1} << 31;  ///< of a grid: correcting takes some bytes for each
 constexpr int kCompression = 6;
 
 [[noreturn]] void refuse(const std::string& why) { throw Error(ErrorKind::invalid_input, "a stored mask " + why); }
@@ -96,7 +96,8 @@ StoredMask::StoredMask(std::string_view header, std::string packed) : packed_(st
     box_ = {index_from(m.at("low"), 0), index_from(m.at("high"), 0)};
     if (static_cast<double>(grid_.size.i) * static_cast<double>(grid_.size.j) * static_cast<double>(grid_.size.k) >
         static_cast<double>(kMostVoxels))
-        refuse(fmt::format("has more than {} voxels", kMostVoxels));
+        refuse(fmt::format("has {} x {} x {} voxels; at most {} are possible", grid_.size.i, grid_.size.j, grid_.size.k,
+                           kMostVoxels));
     for (int axis = 0; axis < 3; ++axis)
         if (box_.low[axis] > box_.high[axis] || box_.high[axis] >= grid_.size[axis]) refuse("lies beyond its own grid");
     grid_.index_to_mm = affine_from(m.at("index_to_mm"));

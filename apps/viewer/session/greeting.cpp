@@ -100,6 +100,7 @@ json correction_json(const MaskEdit& corrected, SurfaceStage stage) {
               {"reach_mm", report.reach_mm},
               {"loose", std::move(pieces)},
               {"dropped", report.dropped_loose}};
+    if (corrected.step) told["step"] = {{"voxels", corrected.step->voxels}, {"more_ml", corrected.step->more_ml}};
     if (report.image && stage == SurfaceStage::finished) told["image"] = sentence(*report.image);
     return told;
 }

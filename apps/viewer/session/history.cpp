@@ -49,6 +49,12 @@ std::set<Id> touched_surfaces(const SessionState& s, const Commit& step) {
         for (const auto& side : {change.before, change.after})
             if (side) touched.insert(side->structure);
     }
+    for (const auto& change : step.contours) {  // of a mask, a hidden correction is none
+        if (!change.before || !change.after || change.before->visible == change.after->visible) continue;
+        const auto& structures = s.project.state().structures;
+        const auto own = structures.find(change.after->structure);
+        if (own != structures.end() && own->second.mask) touched.insert(own->first);
+    }
     return touched;
 }
 
@@ -131,6 +137,7 @@ void commit_ahead(SessionState& s, const Commit& step) {
 }
 
 void tell_changes(SessionState& s, const Commit& step) {
+    ++s.steps;
     s.pages.tell({{"event", "changed"},
                   {"structures", changes_json(step.structures)},
                   {"contours", changes_json(step.contours)},
@@ -144,15 +151,17 @@ void tell_changes(SessionState& s, const Commit& step) {
 SurfaceTask surface_task(const SessionState& s, Id structure) {
     SurfaceTask task;
     task.structure = structure;
+    task.step = s.steps + (s.draft ? 1 : 0);
     const State& state = s.project.state();
-    if (const auto own = state.structures.find(structure); own != state.structures.end()) {
+    const auto own = state.structures.find(structure);
+    if (own != state.structures.end()) {
         task.set = without_contours(own->second);
         task.smoothing = own->second.smoothing;
         task.mask = mask_of(state, own->second);
         if (task.mask) task.how = *own->second.mask;
     }
     const auto add = [&](const DrawnContour& contour) {
-        if (contour.structure != structure) return;
+        if (contour.structure != structure || (own != state.structures.end() && !counts(contour, own->second))) return;
         task.set.contours.push_back(as_contour(contour));
         task.ids.push_back(contour.id);
     };

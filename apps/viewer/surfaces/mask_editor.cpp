@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/surfaces/mask_editor.h"
 
+#include <algorithm>
 #include <condition_variable>
+#include <cstring>
+#include <iterator>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "kontur/base/error.h"
 #include "kontur/correct/corrected_section.h"
+#include "kontur/correct/corrected_voxels.h"
+#include "kontur/correct/existing_mesh.h"
 #include "viewer/surfaces/corrected_mask.h"
 
 namespace kontur::viewer {
@@ -20,19 +25,57 @@ struct Request {
     Corrections corrections;
     CorrectOptions options;
     std::shared_ptr<const Image> image;
+    std::uint64_t step = 0;
 };
+
+/// The voxels that corrections changed.
+struct ChangedVoxels {
+    std::uint64_t step = 0;
+    std::vector<std::size_t> offsets{};  ///< ascending
+    double volume_ml = 0;
+};
+
+ChangedVoxels changed_by(const CorrectedMask& corrected, std::uint64_t step) {
+    constexpr std::uint64_t kChanged =
+        0xFEFEFEFEFEFEFEFE;  // of eight voxels: others are outside (0) or inside (1) as before
+    const std::vector<std::uint8_t>& origin = corrected.origin;
+    ChangedVoxels changed{step, {}, corrected.report.volume_ml};
+    for (std::size_t n = 0; n < origin.size(); n += 8) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, &origin[n], std::min<std::size_t>(8, origin.size() - n));
+        if ((eight & kChanged) == 0) continue;
+        for (std::size_t m = n; m < std::min(n + 8, origin.size()); ++m)
+            if (origin[m] > static_cast<std::uint8_t>(CorrectedVoxel::inside)) changed.offsets.push_back(m);
+    }
+    return changed;
+}
+
+MaskStep step_between(const ChangedVoxels& before, const ChangedVoxels& after) {
+    std::vector<std::size_t> differing;
+    std::ranges::set_symmetric_difference(before.offsets, after.offsets, std::back_inserter(differing));
+    return {static_cast<std::int64_t>(differing.size()), after.volume_ml - before.volume_ml};
+}
 
 /// The mask as correct() takes it: some bytes for each of its voxels.
 struct Opened {
-    explicit Opened(Mask mask) : whole(std::move(mask)), surface(whole) {}
+    explicit Opened(Mask mask) : whole(std::move(mask)), surface(whole), unshrunk(unshrunk_values(surface)) {}
     Mask whole;
     ExistingSurface surface;
+    std::vector<float> unshrunk;
 };
 
-std::shared_ptr<const MaskEdit> edit_of(const CorrectedMask& corrected, const Work& work) {
+bool are_within(const std::vector<std::size_t>& voxels, const Index3& size, const IndexBox& box) {
+    return std::ranges::all_of(voxels, [&](std::size_t voxel) { return box.contains(index_at(voxel, size)); });
+}
+
+std::shared_ptr<MaskEdit> edit_of(const CorrectedMask& corrected, const ChangedVoxels& changed, const Opened& mask,
+                                  const Work& work) {
     auto made = std::make_shared<MaskEdit>();
     made->report = corrected.report;
-    auto mesh = std::make_shared<TriangleMesh>(mesh_of(corrected.mask, work));
+    const bool is_fast = are_within(changed.offsets, mask.whole.grid.size, mask.surface.window_box());
+    auto mesh = std::make_shared<TriangleMesh>(
+        is_fast ? corrected_mesh(mask.surface, mask.unshrunk, *corrected.change, corrected.mask, work)
+                : mesh_of(corrected.mask, work));
     made->origins = origins_of(*mesh, corrected);
     made->mesh = std::move(mesh);
     return made;
@@ -98,8 +141,19 @@ struct MaskEditor::Worker {
             tell(update);
         };
         const std::shared_ptr<const Opened> mask = opened_mask();
-        return edit_of(correct({mask->whole, mask->surface, image}, request.corrections, request.options, work),
-                       Work{.stop = stop});
+        const CorrectedMask made = correct({mask->whole, mask->surface, image}, request.corrections, request.options, work);
+        ChangedVoxels changed = changed_by(made, request.step);
+        const std::shared_ptr<MaskEdit> edit = edit_of(made, changed, *mask, Work{.stop = stop});
+        edit->step = step_of(std::move(changed), made.report);
+        return edit;
+    }
+
+    std::optional<MaskStep> step_of(ChangedVoxels now, const CorrectReport& report) {
+        if (!present && now.step > 0) present.emplace(ChangedVoxels{0, {}, report.volume_before_ml});
+        if (present && present->step < now.step) before = std::move(present);
+        else if (present && present->step > now.step) before.reset();  // a draft that was given up
+        present = std::move(now);
+        return before ? std::optional(step_between(*before, *present)) : std::nullopt;
     }
 
     std::shared_ptr<const Opened> opened_mask() {
@@ -110,7 +164,8 @@ struct MaskEditor::Worker {
 
     const std::shared_ptr<const StoredMask> stored;
     const Listener tell;
-    std::shared_ptr<const MaskEdit> last;  ///< of the thread alone
+    std::shared_ptr<const MaskEdit> last;          ///< of the thread alone
+    std::optional<ChangedVoxels> before, present;  ///< of it alone: by the last step but one, and by the last
 
     std::mutex opened_mutex;
     std::shared_ptr<const Opened> opened;
@@ -129,10 +184,11 @@ MaskEditor::MaskEditor(std::shared_ptr<const StoredMask> mask, Listener listener
 
 MaskEditor::~MaskEditor() = default;
 
-std::uint64_t MaskEditor::edit(Corrections corrections, const CorrectOptions& options, std::shared_ptr<const Image> image) {
+std::uint64_t MaskEditor::edit(Corrections corrections, const CorrectOptions& options, std::shared_ptr<const Image> image,
+                               std::uint64_t step) {
     const std::scoped_lock lock(worker_->mutex);
     worker_->stop_image.request_stop();
-    worker_->next = Request{++worker_->edits, std::move(corrections), options, std::move(image)};
+    worker_->next = Request{++worker_->edits, std::move(corrections), options, std::move(image), step};
     worker_->changed.notify_all();
     return worker_->edits;
 }

@@ -14,11 +14,18 @@
 
 namespace kontur::viewer {
 
+/// What one step of the history changed.
+struct MaskStep {
+    std::int64_t voxels = 0;
+    double more_ml = 0;  ///< less where negative
+};
+
 /// What becomes of a mask by its corrections.
 struct MaskEdit {
     std::shared_ptr<const TriangleMesh> mesh;
     std::vector<std::uint8_t> origins;  ///< of the mesh's points, as origins_of
     CorrectReport report;
+    std::optional<MaskStep> step;  ///< the last one; nothing where it is not known what was there before
 };
 
 /// What a MaskEditor has to say about an edit.
@@ -50,9 +57,11 @@ public:
     MaskEditor(const MaskEditor&) = delete;
     MaskEditor& operator=(const MaskEditor&) = delete;
 
-    /// The corrections are now these; the image takes part where there is one. Returns the number of the edit, counted
-    /// from 1. Does not wait.
-    std::uint64_t edit(Corrections corrections, const CorrectOptions& options, std::shared_ptr<const Image> image);
+    /// The corrections are now these; the image takes part where there is one. `step` counts steps of the history, from 1:
+    /// edits of one step, as drafts of it, are one change; 0 is what was there when the session began. Returns the number of
+    /// the edit, counted from 1. Does not wait.
+    std::uint64_t edit(Corrections corrections, const CorrectOptions& options, std::shared_ptr<const Image> image,
+                       std::uint64_t step);
     /// Throws Error(invalid_input), naming a contour (counted from 1), for contours that can be no corrections of the mask.
     void check(const Corrections& corrections) const;
     /// Waits until the newest edit has its final result.

@@ -90,6 +90,7 @@ struct SurfaceTask {
     std::optional<double> smoothing{};         ///< of the fit; unset: the usual one
     std::shared_ptr<const StoredMask> mask{};  ///< that the contours correct; null: they are all there is
     StructureMask how{};                       ///< it is corrected
+    std::uint64_t step = 0;                    ///< of the session that it comes with; a draft comes with the next one
 };
 
 /// The closed lines, in mm, where a surface meets a plane.

@@ -52,8 +52,8 @@ void Surfaces::start_mask(Follower& follower, SurfaceTask task) {
             "There is no surface until the next edit: no thread to compute it could be started ({}).", error.what())};
         return publish_locked(std::move(none));
     }
-    follower.last_edit = follower.edits_before +
-                         follower.mask_editor->edit(corrections_of(task.set, task.how), correct_options(task.how), image_);
+    follower.last_edit = follower.edits_before + follower.mask_editor->edit(corrections_of(task.set, task.how),
+                                                                            correct_options(task.how), image_, task.step);
     follower.is_working = true;
     follower.tasks[follower.last_edit] = std::move(task);
 }

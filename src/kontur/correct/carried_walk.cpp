@@ -26,17 +26,10 @@ constexpr double kLeastDeviation = 0.05;  // of the smallest voxel side
 constexpr double kLooksWeight = 2;
 constexpr double kTie = 1;  // of a voxel to what is known of it alone, beside its steps
 constexpr double kTolerance = 1e-3;
-constexpr double kLooksReach = 0.24;   // of the object's radius: how far examples of looks reach
 constexpr double kExampleVoxels = 3;   // examples: up to so many of the largest voxel side from the surface ...
 constexpr double kExampleMoves = 1.5;  // ... or so many mean moves ...
 constexpr double kExampleLengths = 4;  // ... and so many lengths from moved places
 constexpr double kRounding = 1e-6;     // a plane between two layers of voxels is in both, however they are rounded
-
-/// Matern's kernel of smoothness 3/2.
-double likeness(double distance, double length) {
-    const double x = std::sqrt(3.0) * distance / length;
-    return (1 + x) * std::exp(-x);
-}
 
 /// Calls visit(axis, side, voxel) for the up to six neighbours of a voxel; sides are 0 to 5.
 template <class Visit>

@@ -14,6 +14,8 @@ namespace kontur {
 
 /// So many times farther than without an image a correction may be carried with one.
 inline constexpr double kFartherWithImage = 2.5;
+/// Of the object's radius: how far what the image shows at one place tells of others.
+inline constexpr double kLooksReach = 0.24;
 
 /// A mask, and what was said of it.
 struct MaskCorrection {
@@ -24,11 +26,11 @@ struct MaskCorrection {
     double reach;  ///< CorrectOptions'
 };
 
-/// Where a correction may be carried with an image: a box of the mask's voxels, and what the image shows at each of them, from
-/// 0 to 1 (IntensityScale); NaN where it shows nothing.
+/// Where a correction may be carried with an image: a box of the mask's voxels, and what the image shows at each of them,
+/// from 0 to 1 (IntensityScale); NaN where it shows nothing.
 struct CarriedBox {
     IndexBox box;
-    Grid grid;                   ///< of the box
+    Grid grid;  ///< of the box
     std::vector<float> looks{};
 };
 
@@ -45,9 +47,9 @@ struct CarriedVoxels {
     std::vector<std::uint8_t> followed(const Index3& size, double weight) const;
 };
 
-/// A random walk (Grady 2006) from voxel to voxel, which ends in drawn planes and where f0 + g is sure: it chooses between the
-/// mask and the correction carried farther, by what the image shows on both sides of the drawn lines nearby. `sections`: all
-/// of the correction's, or some.
+/// A random walk (Grady 2006) from voxel to voxel, which ends in drawn planes and where f0 + g is sure: it chooses between
+/// the mask and the correction carried farther, by what the image shows on both sides of the drawn lines nearby. `sections`:
+/// all of the correction's, or some.
 CarriedVoxels walk_carried(const MaskCorrection& correction, const std::vector<CorrectedSection>& sections,
                            const CarriedBox& at, const Work& work);
 

@@ -17,15 +17,15 @@
 namespace kontur {
 namespace {
 
-constexpr double kFadeFrom = 0.75;    ///< of the reach
-constexpr double kNoChange = 0.2;     ///< of the step: corrections that ask for less repeat the mask
-constexpr double kNugget = 1e-6;      ///< of the prior's variance
-constexpr double kBoundNoise = 0.1;   ///< of what a bound asks for
+constexpr double kFadeFrom = 0.75;        ///< of the reach
+constexpr double kNoChange = 0.2;         ///< of the step: corrections that ask for less repeat the mask
+constexpr double kNugget = 1e-6;          ///< of the prior's variance
+constexpr double kBoundNoise = 0.1;       ///< of what a bound asks for
 constexpr double kBoundStepNoise = 0.05;  ///< of the step
-constexpr double kKept = 0.5;         ///< of what a bound asks for: less breaks it. Either of .3 and .7 changes nothing
-constexpr double kKeptBefore = 0.8;   ///< the same of f0 alone
-constexpr double kApart = 0.35;       ///< of the spacing: nearer data of other planes repeat each other. Half of it costs
-                                      ///< .0015 of mean Dice (bench/correct.py, three axial planes), twice .0008
+constexpr double kKept = 0.5;             ///< of what a bound asks for: less breaks it. Either of .3 and .7 changes nothing
+constexpr double kKeptBefore = 0.8;       ///< the same of f0 alone
+constexpr double kApart = 0.35;  ///< of the spacing: nearer data of other planes repeat each other. Half of it costs
+                                 ///< .0015 of mean Dice (bench/correct.py, three axial planes), twice .0008
 constexpr int kRounds = 6;
 
 /// k of r' = r / unit, where k(0) = 1.
@@ -40,6 +40,11 @@ struct Center {
 };
 
 }  // namespace
+
+double likeness(double distance_mm, double length_mm) {
+    const double x = std::sqrt(3.0) * distance_mm / length_mm;
+    return (1 + x) * std::exp(-x);
+}
 
 std::vector<double> SurfaceChange::values(std::span<const Vec3> positions, const Work& work) const {
     std::vector<double> values(positions.size());
@@ -109,9 +114,10 @@ private:
 
     void add(const Center& center, std::size_t section) {
         if (centers_.size() >= kMostCorrectionCenters)
-            throw Error(ErrorKind::too_large,
-                        fmt::format("the corrections need more than {} data; correct in several steps", kMostCorrectionCenters));
+            throw Error(ErrorKind::too_large, fmt::format("the corrections need more than {} data; correct in several steps",
+                                                          kMostCorrectionCenters));
         centers_.push_back(center);
+        centers_.back().change_mm *= data_.moved_shares[section];
         sections_.push_back(section);
     }
 

@@ -14,6 +14,9 @@
 
 namespace kontur {
 
+/// Matern's kernel of smoothness 3/2: how alike the mask's errors are at two places, from 1 to 0.
+double likeness(double distance_mm, double length_mm);
+
 /// g, by which corrections change f0: a Gaussian process of mean 0 with Matern's kernel of smoothness 3/2,
 /// k(r) = (1 + sqrt(3) r/l) exp(-sqrt(3) r/l), given what the corrections say. Beyond kReachLengths l from every place where
 /// they say that the surface moves it is 0; it fades over the last quarter of that way.

@@ -9,24 +9,25 @@ namespace {
 
 constexpr double kLatticeOfLength = 1.0 / 6;
 
-
 }  // namespace
 
-ChangeLattice::ChangeLattice(const ExistingSurface& surface, const SurfaceChange& change, const IndexBox& box, const Work& work)
-    : first_(box.low) {
+ChangeLattice::ChangeLattice(const ExistingSurface& surface, const SurfaceChange& change, const IndexBox& box,
+                             const Work& work) {
     const Vec3 spacing = surface.grid().spacing_mm();
     const double step = std::max(smallest(spacing), kLatticeOfLength * change.length_mm());
     for (int axis = 0; axis < 3; ++axis) {
         step_[axis] = std::max(std::int64_t{1}, static_cast<std::int64_t>(step / spacing[axis]));
-        size_[axis] = (box.high[axis] - box.low[axis]) / step_[axis] + 2;
+        const std::int64_t before = (box.low[axis] - surface.object_box().low[axis]) % step_[axis];
+        first_[axis] = box.low[axis] - (before < 0 ? before + step_[axis] : before);
+        size_[axis] = (box.high[axis] - first_[axis]) / step_[axis] + 2;
     }
     values_.resize(static_cast<std::size_t>(size_.i * size_.j * size_.k));
-    const double near = 1.1 * change.largest_mm() + 2 * step + largest(spacing);
+    near_mm_ = 1.1 * change.largest_mm() + 2 * step + largest(spacing);
     std::vector<Vec3> places;
     std::vector<std::size_t> nodes;
     for (std::size_t n = 0; n < values_.size(); ++n) {
         const Index3 voxel = voxel_of(static_cast<std::int64_t>(n));
-        if (std::abs(surface.value_at_voxel(voxel)) > near) continue;
+        if (std::abs(surface.value_at_voxel(voxel)) > near_mm_) continue;
         places.push_back(surface.grid().center_mm(voxel.i, voxel.j, voxel.k));
         nodes.push_back(n);
     }

@@ -10,20 +10,24 @@
 
 namespace kontur {
 
-/// g at voxels, by linear interpolation on every n-th voxel of a box, along each axis by itself: a sixth of g's length.
-/// Where the surface is farther away than g moves it, g is 0.
+/// g at voxels, by linear interpolation on every n-th voxel, along each axis by itself: a sixth of g's length. Counted from
+/// the object's box, so that a part of the mask's grid has the same values. Where the surface is farther away than g moves
+/// it, g is 0.
 class ChangeLattice {
 public:
     ChangeLattice(const ExistingSurface& surface, const SurfaceChange& change, const IndexBox& box, const Work& work);
 
     /// At a voxel of the box.
     double at(const Index3& voxel) const;
+    /// Where |f0| is larger, f0 + g has f0's sign.
+    double near_mm() const { return near_mm_; }
 
 private:
     std::int64_t offset(const Index3& node) const { return node.i + size_.i * (node.j + size_.j * node.k); }
     Index3 voxel_of(std::int64_t node) const;
 
     Index3 first_, step_, size_;
+    double near_mm_ = 0;
     std::vector<double> values_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -66,10 +67,12 @@ public:
         std::vector<double> before;
         for (std::int64_t j = box_.low.j; j <= box_.high.j; ++j)
             for (std::int64_t i = box_.low.i; i <= box_.high.i; ++i) {
+                const double f0 = surface_.value_at_voxel({i, j, k});
+                if (std::abs(f0) > lattice_.near_mm()) continue;
                 const double g = lattice_.at({i, j, k});
                 if (std::abs(g) < kLeastChangeVoxels * side) continue;
                 const std::size_t offset = grid.offset(i, j, k);
-                const double f0 = surface_.value_at_voxel({i, j, k}), f = f0 + g;
+                const double f = f0 + g;
                 corrected.values[offset] = f > 0;
                 if (std::abs(f) > kDoubtful * side) continue;
                 places.push_back(grid.center_mm(i, j, k));
@@ -88,6 +91,15 @@ private:
     IndexBox box_;
     ChangeLattice lattice_;
 };
+
+/// Of eight voxels: whether both masks have the same, all of them 0 or 1.
+bool is_kept(const std::uint8_t* before, const std::uint8_t* after) {
+    constexpr std::uint64_t kMoreThanOne = 0xFEFEFEFEFEFEFEFE;
+    std::uint64_t was = 0, is = 0;
+    std::memcpy(&was, before, 8);
+    std::memcpy(&is, after, 8);
+    return was == is && (was & kMoreThanOne) == 0;
+}
 
 }  // namespace
 
@@ -115,6 +127,11 @@ std::vector<std::uint8_t> voxel_origins(const Mask& before, const Mask& after, c
     const auto made = [](CorrectedVoxel voxel) { return static_cast<std::uint8_t>(voxel); };
     std::vector<std::uint8_t> origins(before.values.size());
     for (std::size_t n = 0; n < origins.size(); ++n) {
+        if (n + 8 <= origins.size() && is_kept(&before.values[n], &after.values[n])) {
+            std::memcpy(&origins[n], &before.values[n], 8);
+            n += 7;
+            continue;
+        }
         const bool was = before.values[n] != 0, is = after.values[n] != 0;
         origins[n] = was == is ? made(is ? CorrectedVoxel::inside : CorrectedVoxel::outside)
                                : made(is ? CorrectedVoxel::added_carried : CorrectedVoxel::removed_carried);

@@ -292,6 +292,8 @@ CorrectionData correction_data(const ExistingSurface& surface, const std::vector
     for (std::size_t n = 0; n < searched.size(); ++n) collector.add_bounds(searched, n);
     collector.add_points(drawing.interior, 1, sections.size());
     collector.add_points(drawing.exterior, -1, sections.size());
+    for (const CorrectedSection& section : sections) collector.found.moved_shares.push_back(section.moved_share);
+    collector.found.moved_shares.push_back(1);  // points
     relax_contradictions(drawing, lengths.step, collector.found);
     return std::move(collector.found);
 }

@@ -28,6 +28,7 @@ struct CorrectionBound {
 struct CorrectionData {
     std::vector<CorrectionDatum> data;
     std::vector<CorrectionBound> bounds;
+    std::vector<double> moved_shares;         ///< of each section: CorrectedSection's
     std::vector<std::string> contradictions;  ///< of contours that cross each other, one sentence each
 };
 

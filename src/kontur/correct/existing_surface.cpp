@@ -130,6 +130,7 @@ ExistingSurface::ExistingSurface(const Mask& mask, const Work& work) : grid_(mas
         throw Error(ErrorKind::invalid_input,
                     "the mask has no voxel inside, so there is nothing to correct; kontur segment makes one of contours");
 
+    object_ = *object;
     const IndexBox tight = grown(*object, {1, 1, 1}, grid_.size);
     const std::vector<std::uint8_t> inside = inside_of(mask, tight);
     const Grid tight_grid = grid_of(grid_, tight);
@@ -159,7 +160,7 @@ ExistingSurface::ExistingSurface(const Mask& mask, const Work& work) : grid_(mas
                                    v.k + tight.low.k - first_.k)] = depths[n];
         }
     for (int axis = 0; axis < 3; ++axis) smooth(values_, window_.size, axis, work);
-    const auto least = static_cast<float>(kLeastVoxels * smallest(spacing));
+    const float least = least_value(*this);
     for (std::size_t n = 0; n < values_.size(); ++n)
         values_[n] = marked[n] ? std::max(values_[n], least) : std::min(values_[n], -least);
 }
@@ -189,6 +190,22 @@ double ExistingSurface::value_at_voxel(const Index3& voxel) const {
     for (int axis = 0; axis < 3; ++axis)
         if (v[axis] < 0 || v[axis] >= window_.size[axis]) return value(grid_.center_mm(voxel.i, voxel.j, voxel.k));
     return values_[window_.offset(v.i, v.j, v.k)];
+}
+
+float least_value(const ExistingSurface& surface) {
+    return static_cast<float>(kLeastVoxels * smallest(surface.grid().spacing_mm()));
+}
+
+std::vector<float> unshrunk_values(const ExistingSurface& surface, const Work& work) {
+    const std::span<const float> values = surface.window_values();
+    const float least = least_value(surface);
+    std::vector<float> unshrunk(values.begin(), values.end());
+    for (int axis = 0; axis < 3; ++axis) smooth(unshrunk, surface.window().size, axis, work);
+    for (std::size_t n = 0; n < values.size(); ++n) {
+        const float value = 2 * values[n] - unshrunk[n];
+        unshrunk[n] = values[n] > 0 ? std::max(value, least) : std::min(value, -least);
+    }
+    return unshrunk;
 }
 
 double correction_length_mm(const ExistingSurface& surface) {

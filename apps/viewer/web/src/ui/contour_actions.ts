@@ -47,7 +47,8 @@ export class ContourActions {
   }
 
   private ofOne(contour: Contour): Piece[] {
-    const { call, editor, propose } = this.services;
+    const { call, editor, project, propose } = this.services;
+    const isCorrection = Boolean(project.structures.get(contour.structure)?.mask); // which has neither sides nor ends, and all count alike
     const hole = piece("input", {
       type: "checkbox",
       checked: contour.hole,
@@ -79,12 +80,13 @@ export class ContourActions {
         part: "delete",
         click: () => void (editor.isAnotherTime() || editor.edits.deleteSelected()),
       }),
-      ...(contour.closed
-        ? [this.opener(), piece("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole")]
-        : this.ofOpen(contour)),
+      ...(contour.closed ? [this.opener()] : this.ofOpen(contour, isCorrection)),
+      contour.closed && !isCorrection
+        ? piece("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole")
+        : null,
       this.owner([contour], "The structure that this contour belongs to"),
-      this.weight(contour),
-      contour.closed && !contour.hole ? this.end(contour) : null,
+      isCorrection ? null : this.weight(contour),
+      contour.closed && !contour.hole && !isCorrection ? this.end(contour) : null,
     ].filter((one) => one !== null);
   }
 
@@ -112,7 +114,7 @@ export class ContourActions {
     });
   }
 
-  private ofOpen(contour: Contour): Piece[] {
+  private ofOpen(contour: Contour, isCorrection: boolean): Piece[] {
     const { editor } = this.services;
     const turn = (side: "other" | "auto") => () => void (editor.isAnotherTime() || editor.edits.turnSide(contour, side));
     const close = buttonPiece({
@@ -123,6 +125,7 @@ export class ContourActions {
       test: "close-line",
       click: () => this.openOrClose(),
     });
+    if (isCorrection) return [close];
     const other = buttonPiece({
       icon: ICONS.otherSide,
       label: "Other side",

@@ -2,7 +2,7 @@
 import type { Vec3 } from "../geometry/vec";
 import { volumeText } from "../model/volumes";
 import type { Maker } from "../net/calls";
-import type { CorrectionState, Structure } from "../net/protocol";
+import type { CorrectionState, CorrectionStep, Structure } from "../net/protocol";
 import { PLANE_COLORS } from "../model/palette";
 import { contourName, placeOf } from "./contour_names";
 import type { RowServices } from "./contour_rows";
@@ -44,6 +44,7 @@ const REACHES = [0.5, 1, 2] as const;
 /** What the corrections of a mask come to, and what can be done about it. */
 export function correctionEntries(correction: CorrectionState, { id, mask }: Structure, { goTo, call }: CorrectionServices): Piece[] {
   const entries: Piece[] = [piece("p", { class: "certainty", "data-test": "correction" }, asSentence(correctionText(correction)))];
+  if (correction.step) entries.unshift(piece("p", { class: "certainty", "data-test": "correction-step" }, asSentence(stepText(correction.step))));
   if (correction.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(correction.image)));
   for (const { at, volume_ml } of correction.dropped ? [] : correction.loose)
     entries.push(
@@ -90,7 +91,14 @@ export function correctionEntries(correction: CorrectionState, { id, mask }: Str
 }
 
 function correctionText({ text, voxels, move_mm }: CorrectionState): string {
-  return voxels === 0 ? "nothing changed" : `${text}; up to ${move_mm.toFixed(1)} mm along the lines`;
+  return voxels === 0 ? "nothing changed" : `all corrections: ${text}; up to ${move_mm.toFixed(1)} mm along the lines`;
+}
+
+/** What the last step changed. */
+export function stepText({ voxels, more_ml }: CorrectionStep): string {
+  if (voxels === 0) return "the last step changed no voxel";
+  const changed = voxels === 1 ? "1 voxel" : `${voxels.toLocaleString("en")} voxels`;
+  return `changed: ${changed}, ${volumeText(Math.abs(more_ml))} ${more_ml < 0 ? "less" : "more"}`;
 }
 
 const asSentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { depthBelow, leftOnScreen, sliceOnScreen, toScreen, type Point2, type Screen } from "../geometry/screen";
+import { depthBelow, gap, leftOnScreen, sliceOnScreen, toScreen, type Point2, type Screen } from "../geometry/screen";
 import { scaleBar } from "../geometry/scale_bar";
 import { alongLine } from "../geometry/loop";
 import type { PixelPlane } from "../geometry/plane";
@@ -208,6 +208,31 @@ export class OverlayPainter implements ToolPainter {
     }
     this.ctx.fillStyle = withAlpha(color, ZONE_ALPHA);
     this.ctx.fill(path, "nonzero");
+  }
+
+  /** Closed lines of a slice's outline, on the screen. */
+  onScreen({ points, lines }: Outline, slice: PixelPlane): Point2[][] {
+    const { a, dx, dy } = sliceOnScreen(this.screen, slice);
+    return lines.map(({ first, count }) => Array.from({ length: count }, (_, n) => [a * points[2 * (first + n)]! + dx, a * points[2 * (first + n) + 1]! + dy]));
+  }
+
+  /** The piece of an outline that a stroke is about to replace: dotted, with a tick across each of its ends. */
+  replaced(piece: readonly Point2[], color: string): void {
+    const path = new Path2D();
+    for (const [x, y] of piece) path.lineTo(x, y);
+    this.stroke(path, SHADE, 3.4 * this.appearance.width);
+    this.ctx.setLineDash([2 * this.scale, 4 * this.scale]);
+    this.stroke(path, tinted(color, 0.82), 2 * this.appearance.width);
+    this.ctx.setLineDash([]);
+    const ends = new Path2D();
+    for (const [end, next] of [piece.slice(0, 2), piece.slice(-2).reverse()]) {
+      const long = gap(end!, next!) || 1;
+      const [x, y] = [(TICK_PIXELS * this.scale * (next![1] - end![1])) / long, (TICK_PIXELS * this.scale * (end![0] - next![0])) / long];
+      ends.moveTo(end![0] - x, end![1] - y);
+      ends.lineTo(end![0] + x, end![1] + y);
+    }
+    this.stroke(ends, SHADE, 4.4 * this.appearance.width);
+    this.stroke(ends, tinted(color, 0.82), 2.4 * this.appearance.width);
   }
 
   hand(points: readonly Vec3[], color: string): void {

@@ -12,6 +12,7 @@ import type { Editor } from "../tools/editor";
 import { inView } from "../tools/hit";
 import type { Outlines } from "./outlines";
 import type { OverlayPainter } from "./overlay";
+import { replacedPiece } from "./replaced_piece";
 
 /** What came with a slice's pixels, or after them, and lies on its plane. */
 export interface ShownSlice {
@@ -29,6 +30,7 @@ export interface SliceVectorsServices {
 }
 
 const MOST_ZONE_POINTS = 60;
+const MOST_APART_MM = 0.01; // of planes that are one
 
 /** So many of them that circles around them make one shape. */
 function thinned(points: readonly Vec3[]): readonly Vec3[] {
@@ -53,6 +55,7 @@ export class SliceVectors {
     if (slice && areParallel(slice.plane, screen.axes)) this.paintSurfaces(painter, screen, slice);
     this.paintLines(painter, screen);
     this.paintZone(painter);
+    if (slice) this.paintReplaced(painter, screen, slice);
     this.paintContours(painter, screen);
     this.paintPoints(painter, screen);
     this.paintRings(painter, screen);
@@ -78,6 +81,21 @@ export class SliceVectors {
     const correction = active?.mask && project.surfaces.get(active.id)?.correction;
     const points = handLine.length > 0 ? (movedPoints ?? handLine) : (draft?.points ?? []);
     if (active && correction && points.length > 0) painter.zone(thinned(points), correction.reach_mm, active.color);
+  }
+
+  /** Of a mask while the hand draws a stroke: which piece of its outline that replaces. */
+  private paintReplaced(painter: OverlayPainter, screen: Screen, { outlines, plane }: ShownSlice): void {
+    const { project, editor } = this.services;
+    const { handLine, movedPoints, pointerCloses } = editor.drawing;
+    const active = project.activeStructure;
+    const outline = active?.mask && outlines.get(active.id);
+    if (!outline || movedPoints || pointerCloses || !coincide(plane, planeOf(screen), MOST_APART_MM)) return;
+    if (!handLine.every((p) => Math.abs(depthBelow(screen, p)) < MOST_APART_MM)) return;
+    const piece = replacedPiece(
+      painter.onScreen(outline, plane),
+      handLine.map((p) => toScreen(screen, p)),
+    );
+    if (piece) painter.replaced(piece, active.color);
   }
 
   private paintRings(painter: OverlayPainter, screen: Screen): void {

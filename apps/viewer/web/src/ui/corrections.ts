@@ -44,7 +44,7 @@ const REACHES = [0.5, 1, 2] as const;
 /** What the corrections of a mask come to, and what can be done about it. */
 export function correctionEntries(correction: CorrectionState, { id, mask }: Structure, { goTo, call }: CorrectionServices): Piece[] {
   const entries: Piece[] = [piece("p", { class: "certainty", "data-test": "correction" }, asSentence(correctionText(correction)))];
-  if (correction.step) entries.unshift(piece("p", { class: "certainty", "data-test": "correction-step" }, asSentence(stepText(correction.step))));
+  if (correction.step?.voxels) entries.unshift(piece("p", { class: "certainty", "data-test": "correction-step" }, asSentence(stepText(correction.step))));
   if (correction.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(correction.image)));
   for (const { at, volume_ml } of correction.dropped ? [] : correction.loose)
     entries.push(
@@ -95,8 +95,7 @@ function correctionText({ text, voxels, move_mm }: CorrectionState): string {
 }
 
 /** What the last step changed. */
-export function stepText({ voxels, more_ml }: CorrectionStep): string {
-  if (voxels === 0) return "the last step changed no voxel";
+function stepText({ voxels, more_ml }: CorrectionStep): string {
   const changed = voxels === 1 ? "1 voxel" : `${voxels.toLocaleString("en")} voxels`;
   return `changed: ${changed}, ${volumeText(Math.abs(more_ml))} ${more_ml < 0 ? "less" : "more"}`;
 }

@@ -69,11 +69,14 @@ test("strokes across its outline put a leak and a missing pole right, and undo g
   await page.mouse.up();
   await viewer.waitForContours(1);
   await said(/ml less/).waitFor();
+  const step = viewer.page.locator("[data-test=correction-step]");
+  await step.filter({ hasText: /^Changed: \d+ voxels, [\d.]+ ml less\.$/ }).waitFor();
   await viewer.surfaceShown();
   await picture("correct_leak");
 
   await viewer.drag("coronal", await arc("coronal", 30, 150));
   await viewer.waitForContours(2);
+  await step.filter({ hasText: /ml more\.$/ }).waitFor();
   await viewer.surfaceShown();
   await viewer.saved();
   const left = await wrongVoxels();

@@ -6,10 +6,7 @@ import { replacedPiece } from "../../src/view/replaced_piece";
 
 const ring = (radius: number, x = 0): Point2[] =>
   Array.from({ length: 90 }, (_, n) => [x + radius * Math.cos((Math.PI * n) / 45), radius * Math.sin((Math.PI * n) / 45)]);
-const at = (radius: number, degrees: number, x = 0): Point2 => [
-  x + radius * Math.cos((degrees * Math.PI) / 180),
-  radius * Math.sin((degrees * Math.PI) / 180),
-];
+const at = (radius: number, degrees: number, x = 0): Point2 => [x + radius * Math.cos((degrees * Math.PI) / 180), radius * Math.sin((degrees * Math.PI) / 180)];
 const lengthOf = (line: readonly Point2[]) => line.slice(1).reduce((sum, p, i) => sum + Math.hypot(p[0] - line[i]![0], p[1] - line[i]![1]), 0);
 
 test("a stroke replaces the shorter piece of the outline between its ends, whichever way it is drawn", () => {

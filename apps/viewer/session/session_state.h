@@ -77,7 +77,7 @@ struct SessionState {
     Project project;
     std::optional<Draft> draft;
     std::uint64_t steps = 0;  ///< made, undone and made again since the session began
-    PageId caller = 0;  ///< whose call is carried out
+    PageId caller = 0;        ///< whose call is carried out
 
     Surfaces surfaces;  ///< last: its threads tell events
 };

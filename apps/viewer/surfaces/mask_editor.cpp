@@ -57,8 +57,8 @@ MaskStep step_between(const ChangedVoxels& before, const ChangedVoxels& after) {
 }
 
 /// The mask as correct() takes it: some bytes for each of its voxels.
-struct Opened {
-    explicit Opened(Mask mask) : whole(std::move(mask)), surface(whole), unshrunk(unshrunk_values(surface)) {}
+struct VolumeOfMask {
+    explicit VolumeOfMask(Mask mask) : whole(std::move(mask)), surface(whole), unshrunk(unshrunk_values(surface)) {}
     Mask whole;
     ExistingSurface surface;
     std::vector<float> unshrunk;
@@ -68,7 +68,7 @@ bool are_within(const std::vector<std::size_t>& voxels, const Index3& size, cons
     return std::ranges::all_of(voxels, [&](std::size_t voxel) { return box.contains(index_at(voxel, size)); });
 }
 
-std::shared_ptr<MaskEdit> edit_of(const CorrectedMask& corrected, const ChangedVoxels& changed, const Opened& mask,
+std::shared_ptr<MaskEdit> edit_of(const CorrectedMask& corrected, const ChangedVoxels& changed, const VolumeOfMask& mask,
                                   const Work& work) {
     auto made = std::make_shared<MaskEdit>();
     made->report = corrected.report;
@@ -140,7 +140,7 @@ struct MaskEditor::Worker {
             update.done = done;
             tell(update);
         };
-        const std::shared_ptr<const Opened> mask = opened_mask();
+        const std::shared_ptr<const VolumeOfMask> mask = opened_mask();
         const CorrectedMask made = correct({mask->whole, mask->surface, image}, request.corrections, request.options, work);
         ChangedVoxels changed = changed_by(made, request.step);
         const std::shared_ptr<MaskEdit> edit = edit_of(made, changed, *mask, Work{.stop = stop});
@@ -156,9 +156,9 @@ struct MaskEditor::Worker {
         return before ? std::optional(step_between(*before, *present)) : std::nullopt;
     }
 
-    std::shared_ptr<const Opened> opened_mask() {
+    std::shared_ptr<const VolumeOfMask> opened_mask() {
         const std::scoped_lock lock(opened_mutex);
-        if (!opened) opened = std::make_shared<const Opened>(stored->mask());
+        if (!opened) opened = std::make_shared<const VolumeOfMask>(stored->mask());
         return opened;
     }
 
@@ -168,7 +168,7 @@ struct MaskEditor::Worker {
     std::optional<ChangedVoxels> before, present;  ///< of it alone: by the last step but one, and by the last
 
     std::mutex opened_mutex;
-    std::shared_ptr<const Opened> opened;
+    std::shared_ptr<const VolumeOfMask> opened;
 
     std::mutex mutex;
     std::condition_variable_any changed;
@@ -194,7 +194,7 @@ std::uint64_t MaskEditor::edit(Corrections corrections, const CorrectOptions& op
 }
 
 void MaskEditor::check(const Corrections& corrections) const {
-    const std::shared_ptr<const Opened> mask = worker_->opened_mask();
+    const std::shared_ptr<const VolumeOfMask> mask = worker_->opened_mask();
     corrected_sections(mask->surface, corrections, smallest(mask->whole.grid.spacing_mm()));
 }
 

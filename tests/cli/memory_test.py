@@ -3,10 +3,21 @@
 import json
 import re
 
+import numpy
 import pytest
 from support import SANITIZED, ball_planes, circle, kontur, names, succeed, write_planes
 
-MANY = [circle(axis, -9 + 18 * n / 11, points=200) for axis in "xyz" for n in range(12)]
+
+def by_an_unsteady_hand(plane):
+    """Of a smooth line a third of the points would take part."""
+    for contour in plane["contours"]:
+        points = numpy.array(contour["points"])
+        around = 1 + 0.005 * (-1.0) ** numpy.arange(len(points))[:, None]
+        contour["points"] = (points.mean(0) + around * (points - points.mean(0))).tolist()
+    return plane
+
+
+MANY = [by_an_unsteady_hand(circle(axis, -9 + 18 * n / 11, points=200)) for axis in "xyz" for n in range(12)]
 
 
 def estimate_and_peak(folder, planes, *words):

@@ -57,6 +57,7 @@ OUTPUTS = {
     "slicer-nrrd": "slicer --reference mask.nii.gz --contour ball.mrk.json --mask mask.nrrd",
     "slicer-stl": "slicer --reference mask.nii.gz --contour ball.mrk.json --model surface.stl",
     "slicer-fill-nrrd": "slicer-fill --labels sparse.nii.gz --filled organs.nrrd",
+    "slicer-correct-nrrd": "slicer-correct --labels mask.nii.gz --contour ball.mrk.json --corrected corrected.nrrd",
     **{f"convert-image-{kind}": f"convert dicom image.{kind}" for kind in ("nii", "nii.gz", "nrrd", "mha", "mgz", "mgh")},
     "derive-nii.gz": "derive P=mask+2mm -i mask.nii.gz -o derived.nii.gz",
     "derive-seg": "derive P=mask+2mm -i mask.nii.gz --image dicom -o derived.dcm",

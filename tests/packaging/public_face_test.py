@@ -30,13 +30,13 @@ def reach(*umbrellas):
 
 def test_the_stable_face_is_about_40_headers_and_70_types():
     headers = includes("kontur/kontur.h")
-    assert len(headers) <= 39, headers
-    assert len(types(headers)) <= 86, types(headers)
+    assert len(headers) <= 41, headers
+    assert len(types(headers)) <= 91, types(headers)
 
 
 def test_it_needs_few_headers_more():
-    assert len(reach("kontur/kontur.h")) <= 71
-    assert len(types(reach("kontur/kontur.h"))) <= 129
+    assert len(reach("kontur/kontur.h")) <= 74
+    assert len(types(reach("kontur/kontur.h"))) <= 136
 
 
 def test_stages_are_no_part_of_it():

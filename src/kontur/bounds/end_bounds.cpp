@@ -16,13 +16,14 @@ constexpr double kMostHeight = 1.5;                                 // guesses
 constexpr double kBeyondPoints = 1.25;
 constexpr double kLedOn = 0.35;     // of the height: the object surely goes on where a region lies so far ahead
 constexpr double kHitCosine = 0.9;  // planes tilted less than 26 degrees are met straight ahead
-constexpr double kLedByOthers = 1;  // ... or contours of other directions reach
-constexpr double kBeside = 0.3;     // of their distance beside the section is taken off what these reach
-constexpr double kEdge = 2;         // heights from its outline a dome is as high as in the middle
+// ... or contours of other directions reach; a third of it, and the volume jumps by 7 % as one of two planes turns
+constexpr double kLedByOthers = 1;
+constexpr double kBeside = 0.3;                     // of their distance beside the section is taken off what these reach
+constexpr double kEdge = 2;                         // heights from its outline a dome is as high as in the middle
 constexpr double kNoise = 0.05, kGuessNoise = 0.3;  // of the height
 constexpr double kGuess = 0.2;                      // belief in a height that is but a guess
 constexpr std::size_t kRimPoints = 40;              // per outline
-constexpr double kSeen = 1.3;       // heights to the border of the image that show an end; up to 1 it may lie beyond
+constexpr double kSeen = 1.3;  // heights to the border of the image that show an end; up to 1 it may lie beyond
 
 struct PlaneBefore {
     double distance;

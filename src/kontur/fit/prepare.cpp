@@ -162,7 +162,8 @@ std::vector<std::size_t> nearest_parts(const ContourSet& set, const std::vector<
 
 /// What the planes of each part say, as if it was drawn alone. Contours keep their numbers: those of other parts have no
 /// points.
-void append_limits_of_parts(const DrawnPlanes& planes, const Extents& extents, const Work& work, PreparedContours& prepared) {
+void append_limits_of_parts(const DrawnPlanes& planes, const Extents& extents, const Work& work,
+                            PreparedContours& prepared) {
     const ContourSet& set = planes.set;
     std::vector<std::size_t> part_of(set.contours.size());
     for (std::size_t p = 0; p < extents.parts().size(); ++p)

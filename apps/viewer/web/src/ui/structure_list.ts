@@ -32,6 +32,7 @@ export class StructureList {
   private readonly opened = new Map<number, boolean>();
   private readonly rows: ContourRows;
   private renamed: number | null = null;
+  private clicked: number | null = null; // whose name the last click was on
   private followed: Element | null = null;
   private inSight: { active: number; newest: number; selected: number | undefined } = { active: 0, newest: 0, selected: undefined };
 
@@ -43,6 +44,19 @@ export class StructureList {
     this.rows = new ContourRows(services, this.element, refresh);
     new ResizeObserver(() => this.keepInSight()).observe(this.element);
     this.element.addEventListener("wheel", () => void (this.followed = null), { passive: true }); // the user looks elsewhere
+    for (const kind of ["mousedown", "click", "dblclick"] as const) this.element.addEventListener(kind, (event) => this.hearClick(event), { capture: true });
+  }
+
+  /** A click on a name moves the rows beneath the pointer, so a second one at that place is for the same name, whatever lies there now. */
+  private hearClick(event: MouseEvent): void {
+    if ((event.detail === 2 || event.type === "dblclick") && this.clicked !== null) {
+      event.preventDefault();
+      event.stopPropagation();
+      if (event.type !== "mousedown") this.rename(this.clicked);
+    } else if (event.type === "click") {
+      const name = (event.target as HTMLElement).closest("button.name");
+      this.clicked = name ? Number(name.closest<HTMLElement>(".structure")!.dataset["structure"]) : null;
+    }
   }
 
   update(): void {
@@ -197,7 +211,6 @@ export class StructureList {
         "aria-label": name,
         "aria-current": isActive,
         on: {
-          dblclick: () => this.rename(id),
           keydown: (event) => {
             if (event.key !== "F2") return;
             event.stopPropagation(); // which renames the active one

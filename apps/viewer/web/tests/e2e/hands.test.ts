@@ -138,6 +138,29 @@ describe("the list of structures", () => {
     assert.equal(await activeName(), "Kidney");
   });
 
+  test(
+    "takes a slow double click for the name that it began on, though the first click moves the rows",
+    onlyChromium("Playwright presses twice there"),
+    async () => {
+      const { page } = viewer;
+      await viewer.addStructure();
+      await page.locator(".structure-row button.name").nth(0).click();
+      await page.waitForSelector(".structure:nth-child(1) .structure-row.active");
+      const { x, y, width, height } = (await page.locator(".structure-row button.name").nth(1).boundingBox())!;
+      await page.mouse.move(x + width / 2, y + height / 2);
+      await page.mouse.down();
+      await page.mouse.up();
+      await page.waitForSelector(".structure:nth-child(2) .structure-row.active");
+      assert.ok((await page.locator(".structure-row button.name").nth(1).boundingBox())!.y < y - height / 2, "its row has moved");
+      await page.mouse.down({ clickCount: 2 });
+      await page.mouse.up({ clickCount: 2 });
+      await page.keyboard.type("Kidney");
+      await page.keyboard.press("Enter");
+      await viewer.waitForStep("undo", "Rename");
+      assert.deepEqual(await names(), ["Structure 1", "Kidney"]);
+    },
+  );
+
   test("follows what happens while a name is typed, and does not take the name away", async () => {
     const { page } = viewer;
     await viewer.doubleClick(page.locator(".structure-row button.name"));

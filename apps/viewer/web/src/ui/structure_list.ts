@@ -44,15 +44,15 @@ export class StructureList {
     this.rows = new ContourRows(services, this.element, refresh);
     new ResizeObserver(() => this.keepInSight()).observe(this.element);
     this.element.addEventListener("wheel", () => void (this.followed = null), { passive: true }); // the user looks elsewhere
-    for (const kind of ["mousedown", "click", "dblclick"] as const) this.element.addEventListener(kind, (event) => this.hearClick(event), { capture: true });
+    for (const kind of ["mousedown", "click"] as const) this.element.addEventListener(kind, (event) => this.hearClick(event), { capture: true });
   }
 
   /** A click on a name moves the rows beneath the pointer, so a second one at that place is for the same name, whatever lies there now. */
   private hearClick(event: MouseEvent): void {
-    if ((event.detail === 2 || event.type === "dblclick") && this.clicked !== null) {
+    if (event.detail === 2 && this.clicked !== null) {
       event.preventDefault();
       event.stopPropagation();
-      if (event.type !== "mousedown") this.rename(this.clicked);
+      if (event.type === "click") this.rename(this.clicked);
     } else if (event.type === "click") {
       const name = (event.target as HTMLElement).closest("button.name");
       this.clicked = name ? Number(name.closest<HTMLElement>(".structure")!.dataset["structure"]) : null;

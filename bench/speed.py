@@ -91,8 +91,8 @@ def measure(options, words, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("before", type=pathlib.Path)
-    parser.add_argument("after", type=pathlib.Path)
+    for name in ("before", "after"):
+        parser.add_argument(name, type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--repeat", type=int, default=7)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--more", nargs="+", default=[], metavar="DRAWING=IMAGE")

@@ -16,9 +16,10 @@ std::string slicer_description(const SlicerCommand& defaults);
 std::string slicer_description(const SlicerFillCommand& defaults);
 std::string slicer_description(const SlicerCorrectCommand& defaults);
 
-/// Parameters of curves, which `description` describes. Some are shown at once, others under "More curves".
+/// Parameters of curves, which `description` describes. Some are shown at once, others under "More curves"; `kinds` asks
+/// what line runs between their points.
 struct SlicerCurves {
-    std::string shown, more;
+    std::string shown, more, kinds;
 };
 SlicerCurves slicer_curves(std::string_view description);
 

@@ -58,16 +58,7 @@ constexpr const char* kParameters = R"(  <parameters>
   <parameters advanced="true">
     <label>Method</label>
     <description><![CDATA[How far corrections go]]></description>
-    <string-enumeration>
-      <name>curves</name>
-      <label>Curves</label>
-      <longflag>--curves</longflag>
-      <description><![CDATA[The line between the points of a curve: as 3D Slicer draws a new one (spline), or straight, as in its curves of type linear (polygon)]]></description>
-      <default>spline</default>
-      <element>spline</element>
-      <element>polygon</element>
-    </string-enumeration>
-    <string-enumeration>
+{curve_kinds}    <string-enumeration>
       <name>loosePieces</name>
       <label>Loose pieces</label>
       <longflag>--loose</longflag>
@@ -134,7 +125,8 @@ std::string slicer_description(const SlicerCorrectCommand& defaults) {
     return slicer_module_description(
         kName, kPurpose,
         fmt::format(kParameters, fmt::arg("curves", curves.shown), fmt::arg("more_curves", curves.more),
-                    fmt::arg("numbers", numbers), fmt::arg("results", slicer_results(kResults))));
+                    fmt::arg("curve_kinds", curves.kinds), fmt::arg("numbers", numbers),
+                    fmt::arg("results", slicer_results(kResults))));
 }
 
 }  // namespace kontur::app

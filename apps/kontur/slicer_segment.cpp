@@ -26,6 +26,17 @@ constexpr const char* kName = "Kontur Segment";
 constexpr const char* kPurpose =
     "Smooth surface and mask of an object from closed curves drawn in slices of any orientation.";
 
+constexpr const char* kCurveKinds = R"(    <string-enumeration>
+      <name>curves</name>
+      <label>Curves</label>
+      <longflag>--curves</longflag>
+      <description><![CDATA[The line between the points of a curve: as 3D Slicer draws a new one (spline), or straight, as in its curves of type linear (polygon)]]></description>
+      <default>spline</default>
+      <element>spline</element>
+      <element>polygon</element>
+    </string-enumeration>
+)";
+
 constexpr const char* kParameters = R"(  <parameters>
     <label>Input and output</label>
     <description><![CDATA[What is drawn, on what, and what becomes of it]]></description>
@@ -58,16 +69,7 @@ constexpr const char* kParameters = R"(  <parameters>
   <parameters advanced="true">
     <label>Method</label>
     <description><![CDATA[How the surface runs through the curves]]></description>
-    <string-enumeration>
-      <name>curves</name>
-      <label>Curves</label>
-      <longflag>--curves</longflag>
-      <description><![CDATA[The line between the points of a curve: as 3D Slicer draws a new one (spline), or straight, as in its curves of type linear (polygon)]]></description>
-      <default>spline</default>
-      <element>spline</element>
-      <element>polygon</element>
-    </string-enumeration>
-    <string-enumeration>
+{curve_kinds}    <string-enumeration>
       <name>kernel</name>
       <label>Kernel</label>
       <longflag>--kernel</longflag>
@@ -174,8 +176,8 @@ std::vector<std::string> slicer_curve_flags() {
 }
 
 SlicerCurves slicer_curves(std::string_view description) {
-    return {curve_parameters(1, kCurvesInFront, description),
-            curve_parameters(kCurvesInFront + 1, kMostCurves, description)};
+    return {curve_parameters(1, kCurvesInFront, description), curve_parameters(kCurvesInFront + 1, kMostCurves, description),
+            kCurveKinds};
 }
 
 void run(const SlicerCommand& command, Console& console) {
@@ -199,7 +201,8 @@ std::string slicer_description(const SlicerCommand& defaults) {
     return slicer_module_description(
         kName, kPurpose,
         fmt::format(kParameters, fmt::arg("curves", curves.shown), fmt::arg("more_curves", curves.more),
-                    fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)), fmt::arg("numbers", numbers),
+                    fmt::arg("curve_kinds", curves.kinds), fmt::arg("kernel", name(o.kernel)),
+                    fmt::arg("normals", name(o.normals)), fmt::arg("numbers", numbers),
                     fmt::arg("results", slicer_results(kResults))));
 }
 

@@ -47,10 +47,9 @@ Grid grid_around_contours(const ContourSet& contours) {
 
 Facts interval(const ExpectedDice& dice) { return {{"value", dice.value}, {"low", dice.low}, {"high", dice.high}}; }
 
-/// Slices count from 0, as voxel indices do.
 Facts facts_of(const SuggestedPlane& one) {
     Facts facts{{"origin_mm", triple(one.plane.origin)}, {"normal", triple(one.plane.normal)}, {"gain", one.gain}};
-    if (one.slice) facts["slice"] = {{"axis", std::string(1, "ijk"[one.slice->axis])}, {"index", one.slice->index}};
+    if (one.slice) facts["slice"] = app::facts_of(*one.slice);
     if (one.after.value > 0) {
         facts["expected_dice"] = interval(one.before);
         facts["expected_dice_with_it"] = interval(one.after);
@@ -59,10 +58,7 @@ Facts facts_of(const SuggestedPlane& one) {
 }
 
 std::string line_of(std::size_t number, const SuggestedPlane& one) {
-    const Vec3 &at = one.plane.origin, &n = one.plane.normal;
-    std::string text = fmt::format("{}: through ({:.1f}, {:.1f}, {:.1f}) mm, across ({:.3f}, {:.3f}, {:.3f})", number, at.x,
-                                   at.y, at.z, n.x, n.y, n.z);
-    if (one.slice) text += fmt::format(", slice {} = {}", "ijk"[one.slice->axis], one.slice->index);
+    std::string text = app::line_of(number, one.plane, one.slice);
     if (one.after.value > 0)
         text += fmt::format("; expected Dice {:.2f}, with it {:.2f}", one.before.value, one.after.value);
     return text + "\n";
@@ -104,6 +100,16 @@ ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh,
 }
 
 Facts triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+std::string line_of(std::size_t number, const Plane& plane, const std::optional<ImageSlice>& slice) {
+    const Vec3 &at = plane.origin, &n = plane.normal;
+    std::string text = fmt::format("{}: through ({:.1f}, {:.1f}, {:.1f}) mm, across ({:.3f}, {:.3f}, {:.3f})", number, at.x,
+                                   at.y, at.z, n.x, n.y, n.z);
+    if (slice) text += fmt::format(", slice {} = {}", "ijk"[slice->axis], slice -> index);
+    return text;
+}
+
+Facts facts_of(const ImageSlice& slice) { return {{"axis", std::string(1, "ijk"[slice.axis])}, {"index", slice.index}}; }
 
 void run(const SuggestCommand& command, Console& console) {
     check(command);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "commands.h"
 #include "facts.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/mesh.h"
+#include "kontur/sureness/image_slice.h"
 
 namespace kontur::app {
 
@@ -17,5 +21,10 @@ void run_for_mask(const SuggestCommand& command, Console& console);
 ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh, const ContourSet& drawn);
 
 Facts triple(const Vec3& v);
+
+/// Where a suggested plane lies, for people: "2: through ... mm, across ..., slice k = 7".
+std::string line_of(std::size_t number, const Plane& plane, const std::optional<ImageSlice>& slice);
+/// Slices count from 0, as voxel indices do.
+Facts facts_of(const ImageSlice& slice);
 
 }  // namespace kontur::app

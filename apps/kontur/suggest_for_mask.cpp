@@ -58,17 +58,13 @@ MaskSoFar mask_so_far(const SuggestCommand& command, const Image& image, Console
 }
 
 std::string line_of(std::size_t number, const PlaneToLookAt& one) {
-    const Vec3 &at = one.plane.origin, &n = one.plane.normal;
-    std::string text = fmt::format("{}: through ({:.1f}, {:.1f}, {:.1f}) mm, across ({:.3f}, {:.3f}, {:.3f})", number, at.x,
-                                   at.y, at.z, n.x, n.y, n.z);
-    if (one.slice) text += fmt::format(", slice {} = {}", "ijk"[one.slice->axis], one.slice->index);
-    return text + fmt::format("; {:.0f} mm2 doubtful\n", one.doubtful_mm2);
+    return app::line_of(number, one.plane, one.slice) + fmt::format("; {:.0f} mm2 doubtful\n", one.doubtful_mm2);
 }
 
 Facts facts_of(const PlaneToLookAt& one) {
     Facts facts{
         {"origin_mm", triple(one.plane.origin)}, {"normal", triple(one.plane.normal)}, {"doubtful_mm2", one.doubtful_mm2}};
-    if (one.slice) facts["slice"] = {{"axis", std::string(1, "ijk"[one.slice->axis])}, {"index", one.slice->index}};
+    if (one.slice) facts["slice"] = app::facts_of(*one.slice);
     return facts;
 }
 

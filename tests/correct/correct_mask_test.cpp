@@ -244,6 +244,18 @@ TEST(CorrectMask, AStrokeInAnotherPlaneDoesNotBringBackWhatOneTookAway) {
     EXPECT_GT(both.report.added_carried, 0);
 }
 
+TEST(CorrectMask, TakingALeakAwayAddsNothingAndLeavesTheRest) {
+    const auto is_leak = [](const Vec3& p) { return norm(p - Vec3{36, 0, 0}) < 12; };
+    const Mask mask = test::mask_of(grid_of({1, 1, 2}, 50), [&](const Vec3& p) { return is_leak(p) || norm(p) < 36; });
+    const Plane coronal{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
+    const CorrectReport one = correct(mask, drawn({circle(kAxial, 36)})).report;
+    const CorrectReport both = correct(mask, drawn({circle(kAxial, 36), circle(coronal, 36)})).report;
+    const double voxels = both.volume_before_ml * 1000 / mask.grid.voxel_volume_mm3();
+    EXPECT_LT(one.added_carried, 0.0004 * voxels);
+    EXPECT_LT(both.added_carried, 0.001 * voxels);
+    EXPECT_LT(both.removed_carried, one.removed_carried);
+}
+
 TEST(CorrectMask, AnEmptyPlaneTakesTheObjectAwayThere) {
     const Mask mask = test::mask_of(grid_of({1, 1, 1}, 25), ball({}, 15));
     Corrections corrections;
@@ -311,7 +323,7 @@ TEST(CorrectMask, AMovedLineMovesLittle) {
         const Mask after = correct(dented.mask, drawn({circle(kAxial, 15 + 0.1 * n)})).mask;
         double changed = 0;
         for (std::size_t v = 0; v < after.values.size(); ++v) changed += after.values[v] != before.values[v];
-        EXPECT_LT(changed, 0.012 * size) << n;
+        EXPECT_LT(changed, 0.015 * size) << n;
         before = after;
     }
 }

@@ -60,9 +60,12 @@ std::vector<double> SurfaceChange::values(std::span<const Vec3> positions, const
         fades.push_back(fade);
         scaled.push_back(positions[n] / unit);
     }
-    std::vector<double> sums(near.size());
-    sum_far_kernel(centers_, weights_, PointArrays(scaled), sums, work);
-    for (std::size_t n = 0; n < near.size(); ++n) values[near[n]] = fades[n] * sums[n];
+    const PointArrays targets(scaled);
+    std::vector<double> added(near.size()), removed(near.size());
+    if (!added_.empty()) sum_far_kernel(centers_, added_, targets, added, work);
+    if (!removed_.empty()) sum_far_kernel(centers_, removed_, targets, removed, work);
+    for (std::size_t n = 0; n < near.size(); ++n)
+        values[near[n]] = fades[n] * (std::max(added[n], 0.0) + std::min(removed[n], 0.0));
     return values;
 }
 
@@ -144,34 +147,46 @@ private:
         return !held.empty();
     }
 
-    SurfaceChange through_centers() const {
-        const double unit = lengths_.length / (kScreeningLength * std::sqrt(3.0));
-        std::vector<Vec3> scaled;
+    /// The factored matrix of the centres' equations.
+    std::vector<double> factors(const std::vector<Vec3>& scaled) const {
         double squares = 0;
-        for (const Center& center : centers_) {
-            scaled.push_back(center.position / unit);
-            squares += center.change_mm * center.change_mm;
-        }
+        for (const Center& center : centers_) squares += center.change_mm * center.change_mm;
         const double variance = 2 * squares / static_cast<double>(centers_.size()) + 1e-6;
         const auto n = static_cast<int>(centers_.size());
         const std::ptrdiff_t lead = padded_rows(n);
         std::vector<double> matrix(static_cast<std::size_t>(lead * n));
-        std::vector<double> weights(static_cast<std::size_t>(lead));
         for (int j = 0; j < n; ++j) {
             work_.check();
             for (int i = j; i < n; ++i) matrix[j * lead + i] = kernel(distance(scaled[i], scaled[j]));
             matrix[j * lead + j] += centers_[j].noise_mm * centers_[j].noise_mm / variance + kNugget;
-            weights[j] = centers_[j].change_mm;
         }
         if (!small_cholesky(matrix.data(), n))
             throw Error(ErrorKind::singular_system, "the corrections' equations have no solution: data lie on each other");
-        small_cholesky_solve(matrix.data(), n, weights.data());
+        return matrix;
+    }
 
-        SurfaceChange change;
+    /// Weights of the process through the changes of one sign, 0 where they have the other; none without such changes.
+    std::vector<double> weights(const std::vector<double>& factors, double sign) const {
+        std::vector<double> weights(static_cast<std::size_t>(padded_rows(static_cast<int>(centers_.size()))));
+        for (std::size_t n = 0; n < centers_.size(); ++n)
+            if (sign * centers_[n].change_mm > 0) weights[n] = centers_[n].change_mm;
+        if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; })) return {};
+        small_cholesky_solve(factors.data(), static_cast<int>(centers_.size()), weights.data());
         weights.resize(centers_.size());
         for (double& weight : weights) weight *= kernel(0) / screened_kernel_far(0);
+        return weights;
+    }
+
+    SurfaceChange through_centers() const {
+        const double unit = lengths_.length / (kScreeningLength * std::sqrt(3.0));
+        std::vector<Vec3> scaled;
+        for (const Center& center : centers_) scaled.push_back(center.position / unit);
+        const std::vector<double> factored = factors(scaled);
+
+        SurfaceChange change;
         change.centers_ = PointArrays(scaled);
-        change.weights_ = std::move(weights);
+        change.added_ = weights(factored, 1);
+        change.removed_ = weights(factored, -1);
         change.length_mm_ = lengths_.length;
         for (const Center& center : centers_) {
             change.largest_mm_ = std::max(change.largest_mm_, std::abs(center.change_mm));

@@ -18,15 +18,17 @@ namespace kontur {
 double likeness(double distance_mm, double length_mm);
 
 /// g, by which corrections change f0: a Gaussian process of mean 0 with Matern's kernel of smoothness 3/2,
-/// k(r) = (1 + sqrt(3) r/l) exp(-sqrt(3) r/l), given what the corrections say. Beyond kReachLengths l from every place where
-/// they say that the surface moves it is 0; it fades over the last quarter of that way.
+/// k(r) = (1 + sqrt(3) r/l) exp(-sqrt(3) r/l), given what the corrections say. What they add and what they remove are two
+/// such processes, each without the other sign: beside a deep change an interpolant swings to the other side, and nobody
+/// asked for that. Beyond kReachLengths l from every place where the surface moves it is 0; it fades over the last quarter
+/// of that way.
 class SurfaceChange {
 public:
     /// No change.
     SurfaceChange() = default;
 
     std::vector<double> values(std::span<const Vec3> positions, const Work& work = {}) const;
-    bool is_zero() const { return weights_.empty(); }
+    bool is_zero() const { return added_.empty() && removed_.empty(); }
 
     /// Where it may differ from 0, mm.
     Box3 box() const;
@@ -38,13 +40,13 @@ public:
     double mean_mm() const { return mean_mm_; }
     /// From the nearest place where the surface moves; infinity without one.
     double distance_to_moved(const Vec3& position) const;
-    std::size_t center_count() const { return weights_.size(); }
+    std::size_t center_count() const { return centers_.size(); }
 
 private:
     friend class ChangeSolver;
 
-    PointArrays centers_;  ///< in units in which k is the screened kernel
-    std::vector<double> weights_;
+    PointArrays centers_;                  ///< in units in which k is the screened kernel
+    std::vector<double> added_, removed_;  ///< weights of the two parts of g; none where a part is 0
     std::vector<Vec3> moved_;
     std::optional<PointTree> moved_tree_;
     double length_mm_ = 0, largest_mm_ = 0, mean_mm_ = 0;

@@ -18,6 +18,9 @@ namespace {
 constexpr double kSpacingOfLength = 0.4,
                  kSpacingOfRadius = 1.0 / 15;  ///< the lesser, two voxels at least. x .7 .9381, x 1.5 .9406
 constexpr double kLineNoise = 0.02;            ///< of the step
+// Of the step: noise of a line where it repeats the mask's, which fades out where it moves so far. f0 is known to that, and
+// what it is wrong by would be carried on. Half and twice: the same but for .0015 with planes in any direction.
+constexpr double kRepeatedNoise = 0.3, kRepeatedUpTo = 2;
 constexpr double kSlope = 0.9;        ///< of the distance from a moved line: what f is beside it. Nothing there .9388
 constexpr double kSlopeNoise = 0.3;   ///< of that distance
 constexpr double kLeast = 0.7;        ///< of the distance from the outline: what f is at least
@@ -130,7 +133,8 @@ private:
         for (std::ptrdiff_t n = 0; n < count; ++n) {
             const LinePoint& p = points[static_cast<std::size_t>(n)];
             if (is_still(n) && n % 2 == 1) continue;
-            found.data.push_back({plane.from_uv(p.position), 0, noise, number});
+            const double repeats = 1 - smooth_step(0, kRepeatedUpTo, off[static_cast<std::size_t>(n)] / h);
+            found.data.push_back({plane.from_uv(p.position), 0, std::max(noise, kRepeatedNoise * h * repeats), number});
             if (off[static_cast<std::size_t>(n)] > h) add_slope(searched, number, p);
         }
     }
@@ -167,11 +171,14 @@ private:
         near_.emplace(std::move(moved));
     }
 
+    /// Where nothing changes no bound asks for more than the mask has.
     void add_bound(const SearchedSection& searched, std::size_t number, const Point2& p) {
         const double depth = searched.depth(p, lengths_.step);
         if (std::abs(depth) <= 0.5 * lengths_.step) return;
-        found.bounds.push_back({searched.section.plane.from_uv(p), depth > 0 ? 1.0 : -1.0,
-                                std::min(lengths_.depth, kLeast * std::abs(depth)), number});
+        const Vec3 at = searched.section.plane.from_uv(p);
+        double least = std::min(lengths_.depth, kLeast * std::abs(depth));
+        if (!searched.is_changed(p)) least = std::min(least, std::abs(surface_.value(at)));
+        found.bounds.push_back({at, depth > 0 ? 1.0 : -1.0, least, number});
     }
 
     void add_plane_bounds(const SearchedSection& searched, std::size_t number) {

@@ -20,7 +20,7 @@ void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw Error(ErrorKind::io, "standard output cannot be written");
 }
 
-Console::Console(bool quiet, std::stop_token stop, std::vector<std::string> options)
+Console::Console(bool quiet, StopToken stop, std::vector<std::string> options)
     : quiet_(quiet), options_(std::move(options)), has_bar_(!quiet && isatty(STDERR_FILENO)), stop_(std::move(stop)) {}
 
 Console::~Console() { clear_bar(); }

@@ -5,11 +5,11 @@
 #include <mutex>
 #include <set>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kontur/base/stop.h"
 #include "kontur/base/work.h"
 #include "kontur/io/images/read_image_options.h"
 
@@ -27,7 +27,7 @@ void flush_stdout();
 class Console {
 public:
     /// `quiet`: no progress and no results, warnings only. `options`: the long ones of the command, which sentences name.
-    Console(bool quiet, std::stop_token stop, std::vector<std::string> options);
+    Console(bool quiet, StopToken stop, std::vector<std::string> options);
     ~Console();
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
@@ -37,7 +37,7 @@ public:
     Work work(int threads = 0);
 
     /// What `work` is cancelled by.
-    const std::stop_token& stop_token() const { return stop_; }
+    const StopToken& stop_token() const { return stop_; }
 
     /// Text on stdout, unless quiet.
     void print(std::string_view text);
@@ -57,7 +57,7 @@ private:
     bool quiet_;
     std::vector<std::string> options_;
     bool has_bar_;
-    std::stop_token stop_;
+    StopToken stop_;
     std::set<std::string, std::less<>> warned_;
     std::mutex mutex_;  ///< of the terminal
     std::string bar_;   ///< what stands on the terminal's last line; empty: nothing

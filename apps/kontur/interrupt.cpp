@@ -39,7 +39,7 @@ bool is_ignored_hangup(int signal) {
     return signal == SIGHUP && sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-void watch(std::stop_source& source) {
+void watch(StopSource& source) {
     for (char what = 0; what != kFinished;) {
         if (read(pipe_ends[0], &what, 1) < 0 && errno != EINTR) return;
         if (what == kInterrupted) source.request_stop();

@@ -3,8 +3,9 @@
 
 #include <array>
 #include <csignal>
-#include <stop_token>
 #include <thread>
+
+#include "kontur/base/stop.h"
 
 namespace kontur::app {
 
@@ -21,10 +22,10 @@ public:
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
 
-    std::stop_token token() const { return source_.get_token(); }
+    StopToken token() const { return source_.token(); }
 
 private:
-    std::stop_source source_;
+    StopSource source_;
     std::thread watcher_;
 };
 

@@ -12,12 +12,12 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <stop_token>
 #include <thread>
 
 #include "child_process.h"
 #include "commands.h"
 #include "kontur/base/error.h"
+#include "kontur/base/stop.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "open_project.h"
 #include "viewer/model/temporary_files.h"
@@ -128,7 +128,7 @@ public:
 private:
     std::shared_ptr<viewer::Session> read(const Work& pages) {
         const Work terminal = console_.work();
-        const std::stop_callback stop(terminal.stop, [this] { workspace_->cancel(); });
+        const StopCallback stop(terminal.stop, [this] { workspace_->cancel(); });
         const auto tell = [&](std::string_view stage, double fraction) {
             if (terminal.callback) terminal.callback(stage, fraction);
             if (pages.callback) pages.callback(stage, fraction);
@@ -219,7 +219,7 @@ void run(const OpenCommand& command, Console& console) {
     flush_stdout();  // who does not learn the address cannot use it
     first.serve(&server);
     const auto way_in = command.no_browser ? nullptr : open_browser(server.address(), console);
-    const std::stop_callback stop(work.stop, [&] { server.stop(); });
+    const StopCallback stop(work.stop, [&] { server.stop(); });
     server.run();
     first.serve(nullptr);
     workspace.cancel();

@@ -88,7 +88,7 @@ SlicerRun::SlicerRun(std::string_view module) : module_(module) {
         module_));
 }
 
-Work SlicerRun::work(int threads, const std::stop_token& stop) {
+Work SlicerRun::work(int threads, const StopToken& stop) {
     return {threads, [this](std::string_view stage, double fraction) { report(stage, fraction); }, stop};
 }
 

@@ -3,10 +3,10 @@
 
 #include <chrono>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <string_view>
 
+#include "kontur/base/stop.h"
 #include "kontur/base/work.h"
 
 namespace kontur::app {
@@ -37,7 +37,7 @@ public:
     explicit SlicerRun(std::string_view module);
 
     /// Stages follow one another without anyone knowing how many are to come: each takes half of what is left of the bar.
-    Work work(int threads, const std::stop_token& stop);
+    Work work(int threads, const StopToken& stop);
     /// Shown below the bar, and in the log.
     void say(std::string_view sentence);
     void end();

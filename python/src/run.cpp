@@ -5,8 +5,9 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <stop_token>
 #include <thread>
+
+#include "kontur/base/stop.h"
 
 namespace kontur::python {
 namespace {
@@ -48,7 +49,7 @@ private:
 };
 
 /// What Python has to say; throws what it raises.
-void attend(const Listener& listener, const std::vector<Event>& events, std::stop_source& source) {
+void attend(const Listener& listener, const std::vector<Event>& events, StopSource& source) {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (!listener.progress.is_none())
         for (const Event& event : events) listener.progress(event.stage, event.fraction);
@@ -59,8 +60,8 @@ void attend(const Listener& listener, const std::vector<Event>& events, std::sto
 
 void run_work(const Listener& listener, const std::function<void(const Work&)>& task) {
     Relay relay;
-    std::stop_source source;
-    Work work{.threads = listener.threads, .stop = source.get_token()};
+    StopSource source;
+    Work work{.threads = listener.threads, .stop = source.token()};
     if (!listener.progress.is_none())
         work.callback = [&relay](std::string_view stage, double fraction) { relay.report(stage, fraction); };
 

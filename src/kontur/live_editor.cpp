@@ -68,9 +68,10 @@ struct LiveEditor::Worker {
     std::uint64_t answered = 0;  ///< the newest that is done with
     std::optional<Edit> pending;
     std::shared_ptr<Edit> answering;  ///< null once the last is told of it; its number alone changes
-    std::stop_source finishing{std::nostopstate};
+    StopSource finishing;
+    StopSource closed;  ///< what no edit that comes later stops
     bool closing = false;
-    std::jthread thread;  // last: starts when all else is there
+    std::thread thread;  // last: starts when all else is there
 
     Worker(const EditorOptions& options, Listener to, BandListener band_to, int threads_of_work,
            std::chrono::milliseconds rest_before)
@@ -79,18 +80,22 @@ struct LiveEditor::Worker {
           rest(rest_before),
           listener(std::move(to)),
           ahead(std::move(band_to)),
-          thread([this](const std::stop_token& closed) { run(closed); }) {}
+          thread([this] { run(); }) {}
 
     ~Worker() {
-        const std::lock_guard lock(mutex);
-        closing = true;
-        finishing.request_stop();
-        changed.notify_all();
+        {
+            const std::lock_guard lock(mutex);
+            closing = true;
+            closed.request_stop();
+            finishing.request_stop();
+            changed.notify_all();
+        }
+        thread.join();
     }
 
-    void run(const std::stop_token& closed) {
+    void run() {
         while (const std::shared_ptr<const Edit> edit = next()) {
-            answer(*edit, closed);
+            answer(*edit);
             const std::lock_guard lock(mutex);
             answering = nullptr;
             answered = edit->number;
@@ -105,7 +110,7 @@ struct LiveEditor::Worker {
         return answering = std::make_shared<Edit>(*std::exchange(pending, std::nullopt));
     }
 
-    void answer(const Edit& edit, const std::stop_token& closed) {
+    void answer(const Edit& edit) {
         EditorUpdate update;
         try {
             std::function<void(const SurfaceBand&)> tell_ahead;
@@ -113,10 +118,10 @@ struct LiveEditor::Worker {
             last_image = edit.image;
             if (tell_again(edit)) return;
             if (ahead) tell_ahead = [&](const SurfaceBand& band) { ahead(number_of(edit), band); };
-            update.surface = editor.preview(edit.contours, work_for(edit, closed), tell_ahead);
+            update.surface = editor.preview(edit.contours, work_for(edit, closed.token()), tell_ahead);
             update.kind = EditorUpdate::Kind::preview;
             tell(edit, update);
-            const std::stop_token stop = start_finishing();
+            const StopToken stop = start_finishing();
             if (stop.stop_requested()) return;
             Answer answer{edit.contours, edit.image, edit.image != nullptr, std::nullopt, {}};
             answer.last.kind = EditorUpdate::Kind::finished;
@@ -191,15 +196,15 @@ struct LiveEditor::Worker {
     }
 
     /// Waits a little, then returns a token that the next edit stops; stopped already if that edit has come.
-    std::stop_token start_finishing() {
+    StopToken start_finishing() {
         std::unique_lock lock(mutex);
         const bool is_disturbed = changed.wait_for(lock, rest, [&] { return pending || closing; });
-        finishing = std::stop_source();
+        finishing = StopSource();
         if (is_disturbed) finishing.request_stop();
-        return finishing.get_token();
+        return finishing.token();
     }
 
-    Work work_for(const Edit& edit, std::stop_token stop) {
+    Work work_for(const Edit& edit, StopToken stop) {
         return {threads,
                 [this, &edit](std::string_view stage, double done) {
                     EditorUpdate update;

@@ -38,10 +38,10 @@ TEST(ParallelFor, RethrowsABodysException) {
 
 TEST(ParallelFor, BeginsNoChunkAfterAStop) {
     for (const int threads : {1, 4}) {
-        std::stop_source source;
+        StopSource source;
         std::atomic<int> begun = 0;
         const auto run = [&] {
-            parallel_for(100, 1, Work{.threads = threads, .stop = source.get_token()}, [&](std::int64_t, std::int64_t) {
+            parallel_for(100, 1, Work{.threads = threads, .stop = source.token()}, [&](std::int64_t, std::int64_t) {
                 ++begun;
                 source.request_stop();
             });

@@ -330,7 +330,7 @@ TEST(Adaptive, ReportsProgressAndStopsWhenAskedTo) {
     const std::vector<Vec3> starts = points_of(crossing_contours(60));
     const Grid grid = test::grid_about(kCenter, {110, 112, 108}, 0.5);
     double last = 0;
-    std::stop_source source;
+    StopSource source;
     int reports = 0;
     const Work work{2,
                     [&](std::string_view stage, double done) {
@@ -340,7 +340,7 @@ TEST(Adaptive, ReportsProgressAndStopsWhenAskedTo) {
                         last = done;
                         ++reports;
                     },
-                    source.get_token()};
+                    source.token()};
     track_surface_adaptively(crossing_function(), grid, starts, work);
     EXPECT_GT(reports, 2);
     source.request_stop();

@@ -131,10 +131,10 @@ TEST(Preview, RefusesSpacingsThatMakeNoSense) {
 }
 
 TEST(Preview, StopsWhenAskedTo) {
-    std::stop_source source;
+    StopSource source;
     source.request_stop();
     EXPECT_KONTUR_ERROR(
-        preview_surface(test::ball_function({}, 5), std::vector<Vec3>{{5, 0, 0}}, {}, {.stop = source.get_token()}),
+        preview_surface(test::ball_function({}, 5), std::vector<Vec3>{{5, 0, 0}}, {}, {.stop = source.token()}),
         ErrorKind::cancelled, "");
 }
 

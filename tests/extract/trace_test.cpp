@@ -210,9 +210,9 @@ TEST(Trace, RefusesWhatMakesNoSense) {
 }
 
 TEST(Trace, StopsWhenAsked) {
-    std::stop_source source;
+    StopSource source;
     source.request_stop();
-    const Work work{.stop = source.get_token()};
+    const Work work{.stop = source.token()};
     const std::vector<Plane> planes(2);
     EXPECT_KONTUR_ERROR(trace(test::ball_mask(grids()[0].grid, {0, 0, 0}, 20), planes, {}, work), ErrorKind::cancelled, "");
 }

@@ -287,9 +287,9 @@ TEST(Track, SelfIntersectingContoursOfThePhantomFillAllTheirLobes) {
 }
 
 TEST(Track, StopsWhenAskedTo) {
-    std::stop_source source;
+    StopSource source;
     source.request_stop();
-    const Work stopped{.stop = source.get_token()};
+    const Work stopped{.stop = source.token()};
     const Grid grid = test::grid_about({}, {20, 20, 20}, 1);
     const std::vector<Vec3> starts{{5, 0, 0}};
     EXPECT_KONTUR_ERROR(track_surface(test::ball_function({}, 5), grid, starts, stopped), ErrorKind::cancelled, "");

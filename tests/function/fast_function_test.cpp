@@ -185,14 +185,14 @@ TEST(FastFunction, IsTheDirectSumForFewPointsFewCentresAndPointsBeyondReach) {
 }
 
 TEST(FastFunction, StopsWhenAskedTo) {
-    std::stop_source source;
+    StopSource source;
     source.request_stop();
     const std::vector<Vec3> points(10, kCenter);
     std::vector<double> values(10);
     std::vector<Vec3> gradients(10);
     for (const std::int64_t expected : {std::int64_t{0}, kPoints}) {
         const FastOptions options{.expected_points = expected};
-        const Work stopped{.stop = source.get_token()};
+        const Work stopped{.stop = source.token()};
         EXPECT_KONTUR_ERROR(FastFunction(bumpy(Kernel::triharmonic), options).values(points, values, stopped),
                             ErrorKind::cancelled, "");
         EXPECT_KONTUR_ERROR(FastFunction(bumpy(Kernel::triharmonic), options).gradients(points, gradients, stopped),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/function/kernel.h"
+#include "kontur/base/stop.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <stop_token>
 
 #include "kontur/function/implicit_function.h"
 #include "kontur/function/kernel_sums.h"
@@ -158,9 +158,9 @@ TEST(ImplicitFunction, AStopEndsItsSums) {
     const ImplicitFunction f(Kernel::screened, {}, PointArrays(points), std::vector<double>(points.size(), 1.0), {});
     std::vector<double> values(points.size());
     std::vector<Vec3> gradients(points.size());
-    std::stop_source source;
+    StopSource source;
     source.request_stop();
-    const Work work{.stop = source.get_token()};
+    const Work work{.stop = source.token()};
     EXPECT_KONTUR_ERROR(f.values(points, values, work), ErrorKind::cancelled, "");
     EXPECT_KONTUR_ERROR(f.values_and_gradients(points, values, gradients, work), ErrorKind::cancelled, "");
 }

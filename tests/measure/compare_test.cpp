@@ -182,9 +182,9 @@ TEST(Compare, AnyNumberOfThreadsGivesTheSameNumbers) {
 
 TEST(Compare, StopsWhenAsked) {
     const Mask full{anisotropic({3, 3, 3}), std::vector<std::uint8_t>(27, 1)};
-    std::stop_source source;
+    StopSource source;
     source.request_stop();
-    EXPECT_THROW(compare(full, full, {.stop = source.get_token()}), Error);
+    EXPECT_THROW(compare(full, full, {.stop = source.token()}), Error);
 }
 
 TEST(Compare, AgreesWithScipyOnAnAnisotropicGrid) {

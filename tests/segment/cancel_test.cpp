@@ -39,7 +39,7 @@ struct Delay {
 };
 
 Delay stop_after(Seconds delay, const ContourSet& set, const Grid& grid, const SegmentOptions& options) {
-    std::stop_source source;
+    StopSource source;
     Clock::time_point asked{};
     std::clock_t processor_asked{};
     std::jthread stopper([&] {
@@ -49,7 +49,7 @@ Delay stop_after(Seconds delay, const ContourSet& set, const Grid& grid, const S
         source.request_stop();
     });
     try {
-        segment(set, grid, options, {.stop = source.get_token()});
+        segment(set, grid, options, {.stop = source.token()});
     } catch (const Error& error) {
         const Clock::time_point ended = Clock::now();
         const std::clock_t processor_ended = std::clock();

@@ -309,7 +309,7 @@ TEST(Cancellation, EndsTheQuestionToTheImageAtRandomMoments) {
     }
     std::mt19937 random = test::random_of_this_test();
     for (int round = 0; round < 5; ++round) {
-        std::stop_source source;
+        StopSource source;
         Clock::time_point stopped{};
         std::clock_t processor_stopped{};
         const Seconds delay{std::uniform_real_distribution(0.0, 0.9 * all)(random)};
@@ -323,7 +323,7 @@ TEST(Cancellation, EndsTheQuestionToTheImageAtRandomMoments) {
             });
         };
         try {
-            editor.finish(contours, helpful_image().get(), {.stop = source.get_token()}, asking);
+            editor.finish(contours, helpful_image().get(), {.stop = source.token()}, asking);
         } catch (const Error& error) {
             const Clock::time_point ended = Clock::now();
             const std::clock_t processor_ended = std::clock();

@@ -278,13 +278,13 @@ TEST(Segment, StopsAtWhicheverReportItIsAskedTo) {
         EXPECT_LE(done, 1) << stage;
     }
     for (std::size_t stop_at = 1; stop_at <= reports.size(); stop_at += stop_at < 3 ? 1 : reports.size() / 5) {
-        std::stop_source source;
+        StopSource source;
         std::size_t count = 0;
         const Work work{.callback =
                             [&](std::string_view, double) {
                                 if (++count == stop_at) source.request_stop();
                             },
-                        .stop = source.get_token()};
+                        .stop = source.token()};
         EXPECT_KONTUR_ERROR(segment(contours, ball_grid(), options, work), ErrorKind::cancelled, "cancelled");
         EXPECT_EQ(count, stop_at);
     }

@@ -157,12 +157,12 @@ TEST(H2KernelMatrix, EvaluationsAndMemoryGrowLinearly) {
 
 TEST(H2KernelMatrix, StopsWhenAsked) {
     const PointArrays points(contours(3000));
-    std::stop_source stop;
-    const H2KernelMatrix matrix(Kernel::triharmonic, points, {}, {.threads = 2, .stop = stop.get_token()});
+    StopSource stop;
+    const H2KernelMatrix matrix(Kernel::triharmonic, points, {}, {.threads = 2, .stop = stop.token()});
     stop.request_stop();
     const std::vector<double> w(points.size(), 1.0);
     EXPECT_THROW(product(matrix, w), Error);
-    EXPECT_THROW(H2KernelMatrix(Kernel::triharmonic, points, {}, {.threads = 2, .stop = stop.get_token()}), Error);
+    EXPECT_THROW(H2KernelMatrix(Kernel::triharmonic, points, {}, {.threads = 2, .stop = stop.token()}), Error);
 }
 
 TEST(ClusterTree, ClustersAreRunsInTheirBoxes) {

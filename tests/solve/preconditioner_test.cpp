@@ -171,9 +171,9 @@ TEST(Preconditioner, OnePatternServesAllDiagonalsAndKernels) {
 
 TEST(PreconditionerPattern, StopsWhenAsked) {
     std::mt19937 random = test::random_of_this_test();
-    std::stop_source stop;
+    StopSource stop;
     stop.request_stop();
-    EXPECT_THROW(PreconditionerPattern(random_points(2000, random), {}, {.threads = 2, .stop = stop.get_token()}), Error);
+    EXPECT_THROW(PreconditionerPattern(random_points(2000, random), {}, {.threads = 2, .stop = stop.token()}), Error);
 }
 
 TEST(EarlierNeighbours, AreTheNearestToAnyMember) {

@@ -353,17 +353,17 @@ TEST(Solve, NamesAResidualHoweverSmall) {
 TEST(Solve, StopsWhenAskedTo) {
     const ConstraintSet set = crossing_contours(60);
     for (const Solver solver : kSolvers) {
-        std::stop_source source;
+        StopSource source;
         source.request_stop();
-        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {.stop = source.get_token()}), ErrorKind::cancelled, "cancelled");
+        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {.stop = source.token()}), ErrorKind::cancelled, "cancelled");
     }
     for (const Solver solver : {Solver::cholesky, Solver::iterative}) {  // half-way; dsysv cannot be interrupted
-        std::stop_source source;
+        StopSource source;
         int reports = 0;
         const auto stop_at_the_third = [&](std::string_view, double) {
             if (++reports == 3) source.request_stop();
         };
-        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {.callback = stop_at_the_third, .stop = source.get_token()}),
+        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {.callback = stop_at_the_third, .stop = source.token()}),
                             ErrorKind::cancelled, "cancelled");
         EXPECT_EQ(reports, 3) << name(solver);
     }

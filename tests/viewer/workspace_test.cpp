@@ -155,9 +155,9 @@ TEST(Workspace, ReadsOneSecondImageAtATimeAndItCanBeCancelled) {
         begun.set_value();
         for (;; std::this_thread::sleep_for(1ms)) work.report("read voxels", 0.25);
     };
-    std::stop_source stop;
+    StopSource stop;
     auto ended = std::async(std::launch::async, [&] {
-        EXPECT_KONTUR_ERROR(desk.workspace.put_second_image(desk.image(), {}, stop.get_token()), ErrorKind::cancelled, "");
+        EXPECT_KONTUR_ERROR(desk.workspace.put_second_image(desk.image(), {}, stop.token()), ErrorKind::cancelled, "");
     });
     begun.get_future().wait();
     EXPECT_KONTUR_ERROR(desk.workspace.put_second_image(desk.image(), {}, {}), ErrorKind::invalid_input,

@@ -6,10 +6,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <utility>
 
+#include "kontur/base/stop.h"
 #include "kontur/base/work.h"
 #include "viewer/model/stage_words.h"
 
@@ -26,7 +26,7 @@ public:
     StatusLine& operator=(const StatusLine&) = delete;
 
     /// News by the tenth: more would only cost the page time.
-    Work work(const std::stop_token& stop) const {
+    Work work(const StopToken& stop) const {
         const auto tell = [this, last = std::make_shared<std::pair<std::string_view, int>>()](std::string_view stage,
                                                                                               double done) {
             const std::pair<std::string_view, int> now{stage, static_cast<int>(10 * done)};

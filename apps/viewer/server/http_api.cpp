@@ -177,9 +177,9 @@ HttpApi::View HttpApi::view_of(const std::string& slice) {
     return {text("page"), text("view"), is_numbered ? request["image"].get<std::int64_t>() : 0};
 }
 
-std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest request) {
+std::function<HttpReply(const StopToken&)> HttpApi::prepare(HttpRequest request) {
     if (request.method != "POST" || request.target.path != "/api/slice")
-        return [this, request = std::move(request)](const std::stop_token& stop) { return handle(request, stop); };
+        return [this, request = std::move(request)](const StopToken& stop) { return handle(request, stop); };
     const View view = view_of(request.body);
     std::uint64_t ticket = 0;
     {
@@ -187,8 +187,7 @@ std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest re
         if (newest_slice_.size() >= kMostViews && !newest_slice_.contains(view)) newest_slice_.clear();
         ticket = newest_slice_[view] = ++next_ticket_;
     }
-    return
-        [this, request = std::move(request), view, ticket](const std::stop_token&) { return slice(request, ticket, view); };
+    return [this, request = std::move(request), view, ticket](const StopToken&) { return slice(request, ticket, view); };
 }
 
 HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const View& view) {
@@ -205,14 +204,14 @@ HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const
     });
 }
 
-HttpReply HttpApi::handle(const HttpRequest& request, const std::stop_token& stop) {
+HttpReply HttpApi::handle(const HttpRequest& request, const StopToken& stop) {
     return guarded([&]() -> HttpReply {
         if (request.target.path.starts_with("/api/")) return api(request, stop);
         return request.method == "GET" ? page_file(request.target.path) : not_found();
     });
 }
 
-HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) {
+HttpReply HttpApi::api(const HttpRequest& request, const StopToken& stop) {
     const Target& target = request.target;
     const bool get = request.method == "GET";
     const auto below = [&](std::string_view folder) { return target.path.starts_with(folder); };
@@ -243,19 +242,19 @@ HttpReply HttpApi::mesh(const HttpRequest& request) {
     return target.parameter("compressed") ? compressed(bytes) : binary(std::move(bytes));
 }
 
-HttpReply HttpApi::measured(const HttpRequest& request, const std::stop_token& stop) {
+HttpReply HttpApi::measured(const HttpRequest& request, const StopToken& stop) {
     const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
     if (!session) return nothing();
     return {200, "application/json", session->statistics(stop), {}};
 }
 
-HttpReply HttpApi::put_image(const HttpRequest& request, const std::stop_token& stop) {
+HttpReply HttpApi::put_image(const HttpRequest& request, const StopToken& stop) {
     const json document = parsed_request(request.body, "ImageRequest");
     workspace_.put_second_image(open_request_from(document), request.opening, stop);
     return {200, "application/json", "{}", {}};
 }
 
-HttpReply HttpApi::compared(const HttpRequest& request, const std::stop_token& stop) {
+HttpReply HttpApi::compared(const HttpRequest& request, const StopToken& stop) {
     const auto id = [&](const char* name) {
         const auto text = request.target.parameter(name);
         const auto number = text ? whole_number(*text) : std::nullopt;
@@ -268,7 +267,7 @@ HttpReply HttpApi::compared(const HttpRequest& request, const std::stop_token& s
     return {200, "application/json", session->compare(first, second, stop), {}};
 }
 
-HttpReply HttpApi::exported(const HttpRequest& request, const std::stop_token& stop) {
+HttpReply HttpApi::exported(const HttpRequest& request, const StopToken& stop) {
     const Target& target = request.target;
     std::optional<Id> structure;
     if (const auto text = target.parameter("structure")) {
@@ -285,13 +284,13 @@ HttpReply HttpApi::exported(const HttpRequest& request, const std::stop_token& s
             {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", download.file_name)}}};
 }
 
-HttpReply HttpApi::drawings(const HttpRequest& request, const std::stop_token& stop) {
+HttpReply HttpApi::drawings(const HttpRequest& request, const StopToken& stop) {
     const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
     if (!session) return nothing();
     return {200, "application/json", session->drawings(stop), {}};
 }
 
-HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& stop) {
+HttpReply HttpApi::import(const HttpRequest& request, const StopToken& stop) {
     const Target& target = request.target;
     const bool anyway = target.parameter("anyway").has_value();
     const std::string file = target.parameter("name").value_or("");

@@ -7,13 +7,13 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "kontur/base/stop.h"
 #include "viewer/server/access.h"
 #include "viewer/server/workspace.h"
 
@@ -44,11 +44,11 @@ public:
     /// To be called when a request has come, before it waits for its turn: of the slices asked for one view of a
     /// page, only the latest is made. Returns what handles it; whoever calls that requests the stop when nobody waits for
     /// the reply.
-    std::function<HttpReply(const std::stop_token&)> prepare(HttpRequest request);
+    std::function<HttpReply(const StopToken&)> prepare(HttpRequest request);
 
 private:
-    HttpReply handle(const HttpRequest& request, const std::stop_token& stop);
-    HttpReply api(const HttpRequest& request, const std::stop_token& stop);
+    HttpReply handle(const HttpRequest& request, const StopToken& stop);
+    HttpReply api(const HttpRequest& request, const StopToken& stop);
     /// A page's own name, its view's, and the image's number: two pages have views of the same names, and a view shows
     /// several images.
     using View = std::tuple<std::string, std::string, std::int64_t>;
@@ -56,12 +56,12 @@ private:
 
     HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const View& view);
     HttpReply mesh(const HttpRequest& request);
-    HttpReply measured(const HttpRequest& request, const std::stop_token& stop);
-    HttpReply put_image(const HttpRequest& request, const std::stop_token& stop);
-    HttpReply compared(const HttpRequest& request, const std::stop_token& stop);
-    HttpReply exported(const HttpRequest& request, const std::stop_token& stop);
-    HttpReply drawings(const HttpRequest& request, const std::stop_token& stop);
-    HttpReply import(const HttpRequest& request, const std::stop_token& stop);
+    HttpReply measured(const HttpRequest& request, const StopToken& stop);
+    HttpReply put_image(const HttpRequest& request, const StopToken& stop);
+    HttpReply compared(const HttpRequest& request, const StopToken& stop);
+    HttpReply exported(const HttpRequest& request, const StopToken& stop);
+    HttpReply drawings(const HttpRequest& request, const StopToken& stop);
+    HttpReply import(const HttpRequest& request, const StopToken& stop);
 
     Workspace& workspace_;
     std::mutex mutex_;

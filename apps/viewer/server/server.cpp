@@ -24,10 +24,10 @@
 #include <deque>
 #include <optional>
 #include <set>
-#include <stop_token>
 #include <type_traits>
 
 #include "kontur/base/error.h"
+#include "kontur/base/stop.h"
 #include "viewer/server/access.h"
 #include "viewer/server/http_api.h"
 
@@ -85,8 +85,8 @@ struct ServerCore {
     PageId last_page = 0;
     int connections = 0, imports = 0;
     Clock::time_point last_use;
-    std::stop_source ending;  ///< of all that is worked on
-    asio::io_context io{1};   ///< destroyed before what the connections refer to in their destructors
+    StopSource ending;       ///< of all that is worked on
+    asio::io_context io{1};  ///< destroyed before what the connections refer to in their destructors
     tcp::acceptor acceptor;
     asio::steady_timer clock, last_words;
     asio::thread_pool calls{1};        ///< messages of the pages, in order
@@ -390,11 +390,11 @@ private:
         Request request = parser_->release();
         HttpRequest asked{text(request.method_string()), target_, std::move(request.body()), opening_};
         const auto make = core_.api.prepare(std::move(asked));
-        std::stop_source stop;
+        StopSource stop;
         asio::co_spawn(core_.io, watch(shared_from_this(), stop), asio::detached);
         const auto run = [&] {
-            const std::stop_callback end(core_.ending.get_token(), [&] { stop.request_stop(); });
-            return make(stop.get_token());
+            const StopCallback end(core_.ending.token(), [&] { stop.request_stop(); });
+            return make(stop.token());
         };
         HttpReply reply = co_await made_on(core_.work, run);
         beast::error_code ignored;
@@ -404,7 +404,7 @@ private:
 
     /// Nothing is worked on for a client that has gone: that is how a page cancels. What it sends already, ahead of our
     /// reply, stays in the socket.
-    asio::awaitable<void> watch([[maybe_unused]] std::shared_ptr<Connection> self, std::stop_source stop) {
+    asio::awaitable<void> watch([[maybe_unused]] std::shared_ptr<Connection> self, StopSource stop) {
         beast::error_code error;
         co_await stream_.socket().async_wait(tcp::socket::wait_read, into(error));
         char byte = 0;

@@ -46,7 +46,7 @@ public:
     SearchStatus(const SearchStatus&) = delete;
     SearchStatus& operator=(const SearchStatus&) = delete;
 
-    Work work(const std::stop_token& stop) {
+    Work work(const StopToken& stop) {
         return {.callback =
                     [this](std::string_view, double done) {
                         const int percent = static_cast<int>(100 * done);
@@ -71,7 +71,7 @@ OpenRequest open_request_from(const json& document) {
 }
 
 std::optional<StartReply> start_api(Workspace& workspace, const std::string& method, const Target& target,
-                                    const std::string& body, const std::stop_token& stop) {
+                                    const std::string& body, const StopToken& stop) {
     const Places& places = workspace.places();
     if (method == "GET" && target.path == "/api/folder") return json_reply(places.list(needed(target, "path")));
     if (method == "GET" && target.path == "/api/series") {

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <stop_token>
 #include <string>
 
+#include "kontur/base/stop.h"
 #include "viewer/server/access.h"
 #include "viewer/server/workspace.h"
 
@@ -18,7 +18,7 @@ struct StartReply {
     std::string body;
 };
 std::optional<StartReply> start_api(Workspace& workspace, const std::string& method, const Target& target,
-                                    const std::string& body, const std::stop_token& stop);
+                                    const std::string& body, const StopToken& stop);
 
 /// What the body of a request names to be opened.
 OpenRequest open_request_from(const nlohmann::json& document);

@@ -160,7 +160,7 @@ std::shared_ptr<Session> Workspace::session_unless_closed(const std::optional<st
 }
 
 void Workspace::begin(const std::string& title, Open open, std::function<void(std::exception_ptr)> done) {
-    std::stop_token stop;
+    StopToken stop;
     {
         const std::scoped_lock lock(mutex_);
         if (session_) throw Error(ErrorKind::invalid_input, "an image is open; close it first");
@@ -168,15 +168,15 @@ void Workspace::begin(const std::string& title, Open open, std::function<void(st
             throw Error(ErrorKind::invalid_input, fmt::format("{} is being opened; cancel that first", opening_->title));
         opening_ = Opening{title, "", 0};
         sentence_.clear();
-        reading_ = std::stop_source();
-        stop = reading_.get_token();
+        reading_ = StopSource();
+        stop = reading_.token();
     }
     tell_progress("", 0);
     if (reader_.joinable()) reader_.join();  // of what was read before: it has told its end
     reader_ = std::thread([this, open = std::move(open), done = std::move(done), stop] { read(open, done, stop); });
 }
 
-void Workspace::read(const Open& open, const std::function<void(std::exception_ptr)>& done, const std::stop_token& stop) {
+void Workspace::read(const Open& open, const std::function<void(std::exception_ptr)>& done, const StopToken& stop) {
     std::exception_ptr failure;
     try {
         const auto begun = std::chrono::steady_clock::now();
@@ -270,7 +270,7 @@ void Workspace::open(const OpenRequest& request) {
 }
 
 void Workspace::put_second_image(const OpenRequest& request, const std::optional<std::string>& opening,
-                                 const std::stop_token& stop) {
+                                 const StopToken& stop) {
     session(opening);
     if (!services_.read) throw Error(ErrorKind::unsupported, "this kontur shows one image alone");
     const std::unique_lock alone(reading_second_, std::try_to_lock);

@@ -12,11 +12,11 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <thread>
 
+#include "kontur/base/stop.h"
 #include "kontur/base/work.h"
 #include "viewer/session/session.h"
 #include "viewer/store/arrangements.h"
@@ -87,8 +87,7 @@ public:
     /// For pages: reads what lies in one of the places, and shows it beside the open session's image. Returns when it is
     /// there; status lines say how far it is. Throws as `session` and `Session::put_second_image`, what the reader throws,
     /// and Error(invalid_input) while another one is read.
-    void put_second_image(const OpenRequest& request, const std::optional<std::string>& opening,
-                          const std::stop_token& stop);
+    void put_second_image(const OpenRequest& request, const std::optional<std::string>& opening, const StopToken& stop);
     /// What is being read is given up.
     void cancel();
     /// Everything is saved; the start page comes back.
@@ -113,7 +112,7 @@ private:
     std::shared_ptr<Session> session_locked(const std::optional<std::string>& opening) const;
     std::string start_event() const;
     nlohmann::json places_json() const;
-    void read(const Open& open, const std::function<void(std::exception_ptr)>& done, const std::stop_token& stop);
+    void read(const Open& open, const std::function<void(std::exception_ptr)>& done, const StopToken& stop);
     void adopt(std::shared_ptr<Session> session);
     void remember(const Session& session);
     /// `to_choose`: further members of the error, where the file can be read once something is chosen.
@@ -139,7 +138,7 @@ private:
     std::optional<Opening> opening_;
     std::string folder_, sentence_;
 
-    std::stop_source reading_{std::nostopstate};
+    StopSource reading_;
     std::thread reader_;  ///< last: it uses all of it
 };
 

@@ -14,7 +14,7 @@
 
 namespace kontur::viewer {
 
-std::string comparison_reply(SessionState& s, Id first, Id second, const std::stop_token& stop) {
+std::string comparison_reply(SessionState& s, Id first, Id second, const StopToken& stop) {
     State now = s.state();
     // Readers are compared by what each has drawn, not by borders that they would share.
     now.borders.shared = false;

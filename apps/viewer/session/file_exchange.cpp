@@ -161,7 +161,7 @@ void leave_out_taken_labels(ImportContent& imported, const State& state) {
 
 }  // namespace
 
-Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const std::stop_token& stop) {
+Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const StopToken& stop) {
     const StatusLine line(s.pages.status_teller(), "Exporting " + name);
     const TemporaryFolder folder;
     const fs::path path = folder.path() / name;
@@ -197,7 +197,7 @@ Download exported(SessionState& s, const std::string& name, std::optional<Id> st
     return download;
 }
 
-ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
+ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const StopToken& stop) {
     const StatusLine line(s.pages.status_teller(), "Importing");
     const Work work{.stop = stop};
     ImportContent imported = import_apart(bytes, upload, work);

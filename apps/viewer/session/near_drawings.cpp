@@ -33,7 +33,7 @@ std::vector<DicomDrawing> drawings_of(const DicomSeries& series, const std::stri
 
 }  // namespace
 
-std::string drawings_reply(const SessionState& s, const std::stop_token& stop) {
+std::string drawings_reply(const SessionState& s, const StopToken& stop) {
     json list = json::array();
     if (s.image.series)
         for (const DicomDrawing& one : drawings_of(*s.image.series, s.image.frame_of_reference_uid, {.stop = stop}))
@@ -46,7 +46,7 @@ std::string drawings_reply(const SessionState& s, const std::stop_token& stop) {
     return to_text({{"drawings", std::move(list)}});
 }
 
-ImportReply import_near(SessionState& s, const fs::path& file, const Upload& upload, const std::stop_token& stop) {
+ImportReply import_near(SessionState& s, const fs::path& file, const Upload& upload, const StopToken& stop) {
     std::vector<DicomDrawing> near;
     if (s.image.series) near = drawings_of(*s.image.series, s.image.frame_of_reference_uid, {.stop = stop});
     if (std::ranges::find(near, file, &DicomDrawing::file) == near.end())

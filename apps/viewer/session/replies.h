@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kontur/base/stop.h"
 #include "viewer/files/imports.h"
 #include "viewer/session/session_state.h"
 
@@ -46,18 +46,17 @@ std::string slice_reply(SessionState& s, std::string_view request);
 /// `coded`: in few bytes, which are worth compressing.
 std::string mesh_reply(const SessionState& s, Id structure, bool coded, const MeshExtras& extras);
 /// These three throw StructureRemoved for a structure that another page has removed meanwhile.
-Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const std::stop_token& stop);
+Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const StopToken& stop);
 /// Of all structures with contours, as JSON.
-std::string statistics_reply(SessionState& s, const std::stop_token& stop);
+std::string statistics_reply(SessionState& s, const StopToken& stop);
 /// How two structures agree, voxel by voxel, as JSON.
-std::string comparison_reply(SessionState& s, Id first, Id second, const std::stop_token& stop);
+std::string comparison_reply(SessionState& s, Id first, Id second, const StopToken& stop);
 
-ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const std::stop_token& stop);
+ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const StopToken& stop);
 /// Structure sets and segmentations that lie near a DICOM image and were drawn on it, or in its frame of reference, as JSON.
-std::string drawings_reply(const SessionState& s, const std::stop_token& stop);
+std::string drawings_reply(const SessionState& s, const StopToken& stop);
 /// Imports one of these. Throws Error(invalid_input) for another file, and as `import`.
-ImportReply import_near(SessionState& s, const std::filesystem::path& file, const Upload& upload,
-                        const std::stop_token& stop);
+ImportReply import_near(SessionState& s, const std::filesystem::path& file, const Upload& upload, const StopToken& stop);
 
 /// One structure for each set, with the mask that its contours correct if there is one, as one step of the history. A label
 /// value that another structure has is left out.

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kontur/base/stop.h"
 #include "viewer/session/replies.h"
 #include "viewer/session/session_state.h"
 
@@ -36,18 +36,18 @@ public:
     std::string mesh(Id structure, bool coded = false, const MeshExtras& extras = {.widths = true}) {
         return mesh_reply(state_, structure, coded, extras);
     }
-    Download exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop = {}) {
+    Download exported(const std::string& name, std::optional<Id> structure, const StopToken& stop = {}) {
         return viewer::exported(state_, name, structure, stop);
     }
-    std::string statistics(const std::stop_token& stop = {}) { return statistics_reply(state_, stop); }
-    std::string compare(Id first, Id second, const std::stop_token& stop = {}) {
+    std::string statistics(const StopToken& stop = {}) { return statistics_reply(state_, stop); }
+    std::string compare(Id first, Id second, const StopToken& stop = {}) {
         return comparison_reply(state_, first, second, stop);
     }
-    ImportReply import(const std::string& bytes, const Upload& upload, const std::stop_token& stop = {}) {
+    ImportReply import(const std::string& bytes, const Upload& upload, const StopToken& stop = {}) {
         return viewer::import(state_, bytes, upload, stop);
     }
-    std::string drawings(const std::stop_token& stop = {}) const { return drawings_reply(state_, stop); }
-    ImportReply import_near(const std::filesystem::path& file, const Upload& upload, const std::stop_token& stop = {}) {
+    std::string drawings(const StopToken& stop = {}) const { return drawings_reply(state_, stop); }
+    ImportReply import_near(const std::filesystem::path& file, const Upload& upload, const StopToken& stop = {}) {
         return viewer::import_near(state_, file, upload, stop);
     }
     std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets,

@@ -41,7 +41,7 @@ json row_json(const FittedStructure& one, const Image& image) {
 
 }  // namespace
 
-std::string statistics_reply(SessionState& s, const std::stop_token& stop) {
+std::string statistics_reply(SessionState& s, const StopToken& stop) {
     const StatusLine line(s.pages.status_teller(), "Measuring");
     const State now = s.state();
     const std::shared_ptr<const FurtherImage> second = s.second.get();

@@ -85,32 +85,40 @@ std::shared_ptr<MaskEdit> edit_of(const CorrectedMask& corrected, const ChangedV
 
 struct MaskEditor::Worker {
     Worker(std::shared_ptr<const StoredMask> mask, Listener listener)
-        : stored(std::move(mask)),
-          tell(std::move(listener)),
-          thread([this](const std::stop_token& closed) { run(closed); }) {}
+        : stored(std::move(mask)), tell(std::move(listener)), thread([this] { run(); }) {}
 
-    void run(const std::stop_token& closed) {
+    ~Worker() {
+        {
+            const std::scoped_lock lock(mutex);
+            closed.request_stop();
+            stop_image.request_stop();
+            changed.notify_all();
+        }
+        thread.join();
+    }
+
+    void run() {
         while (true) {
             Request request;
-            std::stop_source newer;
+            StopSource newer;
             {
                 std::unique_lock lock(mutex);
                 is_working = false;
                 changed.notify_all();
-                if (!changed.wait(lock, closed, [&] { return next.has_value(); })) return;
+                changed.wait(lock, [&] { return next || closed.stop_requested(); });
+                if (closed.stop_requested()) return;
                 request = std::move(*std::exchange(next, std::nullopt));
                 is_working = true;
                 stop_image = newer;
             }
-            const std::stop_callback closing(closed, [&] { newer.request_stop(); });
-            answer(request, closed, newer.get_token());
+            answer(request, newer.token());
         }
     }
 
-    void answer(const Request& request, const std::stop_token& closed, const std::stop_token& newer) {
+    void answer(const Request& request, const StopToken& newer) {
         MaskUpdate update{MaskUpdate::Kind::corrected, request.edit, nullptr, false, {}, 0};
         try {
-            update.result = corrected(request, nullptr, closed);
+            update.result = corrected(request, nullptr, closed.token());
             update.asks_image = request.image && update.result->report.planes.size() >= kLeastPlanesForImage;
             last = update.result;
         } catch (const std::exception& error) {
@@ -132,7 +140,7 @@ struct MaskEditor::Worker {
         tell(update);
     }
 
-    std::shared_ptr<const MaskEdit> corrected(const Request& request, const Image* image, const std::stop_token& stop) {
+    std::shared_ptr<const MaskEdit> corrected(const Request& request, const Image* image, const StopToken& stop) {
         Work work{.stop = stop};
         work.callback = [&](std::string_view, double done) {
             MaskUpdate update;
@@ -171,12 +179,12 @@ struct MaskEditor::Worker {
     std::shared_ptr<const VolumeOfMask> opened;
 
     std::mutex mutex;
-    std::condition_variable_any changed;
+    std::condition_variable changed;
     std::optional<Request> next;
-    std::stop_source stop_image;
+    StopSource closed, stop_image;
     std::uint64_t edits = 0;
     bool is_working = false;
-    std::jthread thread;  ///< last: it uses all above
+    std::thread thread;  ///< last: it uses all above
 };
 
 MaskEditor::MaskEditor(std::shared_ptr<const StoredMask> mask, Listener listener)

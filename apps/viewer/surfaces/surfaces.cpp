@@ -121,10 +121,21 @@ std::string_view name(SurfaceStage stage) noexcept {
 }
 
 Surfaces::~Surfaces() {
+    end_editors();
+    {
+        const std::scoped_lock lock(mutex_);
+        is_ending_ = true;
+        sharing_stop_.request_stop();
+        sharing_changed_.notify_all();
+    }
+    if (sharing_thread_.joinable()) sharing_thread_.join();
+}
+
+void Surfaces::end_editors() {
     Retired editors;  // ended without the lock, and before the map that their threads look through
     const std::scoped_lock lock(mutex_);
     later_.clear();
-    sharing_stop_.request_stop();  // its thread is ended last
+    sharing_stop_.request_stop();
     editors.swap(retired_);
     for (auto& [structure, follower] : followers_) {
         editors.push_back(std::move(follower.editor));

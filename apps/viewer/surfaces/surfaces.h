@@ -9,11 +9,11 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "kontur/base/stop.h"
 #include "kontur/live_editor.h"
 #include "kontur/sureness/surface_evidence.h"
 #include "viewer/model/model.h"
@@ -195,8 +195,9 @@ private:
     bool is_busy_locked() const;
     bool hand_over(const SurfaceTask& task, const Alone& alone);
     bool ask_to_share_locked();
-    void keep_sharing(const std::stop_token& closed);
-    void share(const std::map<Id, Alone>& alone, const Borders& borders, const std::stop_token& stop);
+    void end_editors();
+    void keep_sharing();
+    void share(const std::map<Id, Alone>& alone, const Borders& borders, const StopToken& stop);
     void publish_shared(const Alone& alone, std::shared_ptr<const TriangleMesh> mesh);
 
     const SurfaceListener listener_;
@@ -207,14 +208,14 @@ private:
     std::map<Id, Alone> alone_;
     Borders borders_;
     std::vector<BorderPair> pairs_;
-    bool is_sharing_wanted_ = false, is_sharing_ = false;
-    std::stop_source sharing_stop_;
-    std::condition_variable_any sharing_changed_;
+    bool is_sharing_wanted_ = false, is_sharing_ = false, is_ending_ = false;
+    StopSource sharing_stop_;
+    std::condition_variable sharing_changed_;
     BorderSharing sharing_;  ///< of the thread
     std::deque<SurfaceTask> later_;
     Retired retired_;                   ///< not needed any more; an editor's own thread cannot end it
     std::map<Id, Follower> followers_;  ///< their threads use all above
-    std::jthread sharing_thread_;       ///< last: it does, too
+    std::thread sharing_thread_;        ///< last: it does, too
 };
 
 }  // namespace kontur::viewer

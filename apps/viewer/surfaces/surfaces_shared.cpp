@@ -68,8 +68,7 @@ bool Surfaces::hand_over(const SurfaceTask& task, const Alone& alone) {
 /// False where no thread could be started: borders are then not shared.
 bool Surfaces::ask_to_share_locked() {
     try {
-        if (!sharing_thread_.joinable())
-            sharing_thread_ = std::jthread([this](const std::stop_token& closed) { keep_sharing(closed); });
+        if (!sharing_thread_.joinable()) sharing_thread_ = std::thread([this] { keep_sharing(); });
     } catch (const std::system_error&) {
         return false;
     }
@@ -78,28 +77,28 @@ bool Surfaces::ask_to_share_locked() {
     return true;
 }
 
-void Surfaces::keep_sharing(const std::stop_token& closed) {
+void Surfaces::keep_sharing() {
     while (true) {
         std::map<Id, Alone> alone;
         Borders borders;
-        std::stop_source stop;
+        StopSource stop;
         {
             std::unique_lock lock(mutex_);
             is_sharing_ = false;
             sharing_changed_.notify_all();
-            if (!sharing_changed_.wait(lock, closed, [&] { return is_sharing_wanted_; })) return;
+            sharing_changed_.wait(lock, [&] { return is_sharing_wanted_ || is_ending_; });
+            if (is_ending_) return;
             is_sharing_wanted_ = false;
             is_sharing_ = true;
             sharing_stop_ = stop;
             alone = alone_;
             borders = borders_;
         }
-        const std::stop_callback closing(closed, [&] { stop.request_stop(); });
-        share(alone, borders, stop.get_token());
+        share(alone, borders, stop.token());
     }
 }
 
-void Surfaces::share(const std::map<Id, Alone>& alone, const Borders& borders, const std::stop_token& stop) {
+void Surfaces::share(const std::map<Id, Alone>& alone, const Borders& borders, const StopToken& stop) {
     SharedBorders found;
     std::string problem;
     try {

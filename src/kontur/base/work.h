@@ -2,8 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <stop_token>
 #include <string_view>
+
+#include "kontur/base/stop.h"
 
 namespace kontur {
 
@@ -14,7 +15,7 @@ struct Work {
     int threads = 0;  ///< 0: the machine's
     /// Called from the calling thread with the stage's name (static storage) and its done fraction in [0, 1].
     std::function<void(std::string_view stage, double fraction)> callback{};
-    std::stop_token stop{};
+    StopToken stop{};
 
     /// The same threads and stop, telling nobody: for a step of a stage.
     Work untold() const { return {threads, {}, stop}; }

@@ -36,8 +36,8 @@ std::array<double, 8> Lattice::corners(const Index3& c) const {
     if (in_grid(c) && in_grid(last) && block_of(c) == block_of(last)) {
         const Block* block = blocks_[block_of(c)].get();
         if (!block) return {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
-        const double* v = block->values.data() + within(c);
-        return {v[0], v[1], v[8], v[9], v[64], v[65], v[72], v[73]};
+        const auto at = [v = block->values.data() + within(c)](int n) { return v[n].load(std::memory_order_relaxed); };
+        return {at(0), at(1), at(8), at(9), at(64), at(65), at(72), at(73)};
     }
     for (int n = 0; n < 8; ++n) result[static_cast<std::size_t>(n)] = value(corner(c, n));
     return result;

@@ -36,16 +36,16 @@ public:
     double value(const Index3& p) const {
         if (!in_grid(p)) return kOutside;
         const Block* block = blocks_[block_of(p)].get();
-        return block ? block->values[within(p)] : kUnknown;
+        return block ? block->values[within(p)].load(std::memory_order_relaxed) : kUnknown;
     }
-    void set_value(const Index3& p, double value) { block(p).values[within(p)] = value; }
+    void set_value(const Index3& p, double value) { block(p).values[within(p)].store(value, std::memory_order_relaxed); }
 
     /// Makes room for the values at the points from `low` to `high`, for set_reserved.
     void reserve(const Index3& low, const Index3& high);
 
     /// set_value for several threads at a time; if more than one sets the same point, then to the same value.
     void set_reserved(const Index3& p, double value) {
-        std::atomic_ref(blocks_[block_of(p)]->values[within(p)]).store(value, std::memory_order_relaxed);
+        blocks_[block_of(p)]->values[within(p)].store(value, std::memory_order_relaxed);
     }
 
     /// Marks a cell; true if it was not marked before.
@@ -66,9 +66,11 @@ public:
 
 private:
     struct Block {
-        std::array<double, 512> values;
+        std::array<std::atomic<double>, 512> values;
         std::bitset<512> marked_cells, marked_points;
-        Block() { values.fill(kUnknown); }
+        Block() {
+            for (std::atomic<double>& value : values) value.store(kUnknown, std::memory_order_relaxed);
+        }
     };
 
     std::size_t block_of(const Index3& p) const {

@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/shape/predicates.h"
 
-// CGAL's headers take seconds to compile; they stay in this file.
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <algorithm>
+#include <cmath>
+
+#include "kontur/shape/sign_of_sum.h"
+
+#ifdef __FAST_MATH__
+#error "predicates.cpp relies on the rounding of each operation, and on NaN: compile it without -ffast-math"
+#endif
 
 namespace kontur {
 
 int orientation(const Point2& a, const Point2& b, const Point2& c) {
-    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
-    return CGAL::orientation(Point(a[0], a[1]), Point(b[0], b[1]), Point(c[0], c[1]));
+    const double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]);
+    const double area = left - right, sum = std::abs(left) + std::abs(right);
+    // Each product is off by at most (3u + 3u^2 + u^3) of itself, u = 2^-53: two differences and the product are rounded
+    // (Shewchuk 1997, section 4.3). A fourth u covers the rounding of the sum and, unless it is tiny, underflow. The
+    // comparison is false where something overflowed.
+    constexpr double kError = 4 * 0x1p-53, kTiny = 0x1p-900;
+    if (sum >= kTiny && std::abs(area) > kError * sum) return area > 0 ? 1 : -1;
+    return sign_of_sum({{{a[0], b[1]}, {-a[0], c[1]}, {-c[0], b[1]}, {-a[1], b[0]}, {a[1], c[0]}, {c[1], b[0]}}});
 }
 
 bool is_on_segment(const Point2& a, const Point2& b, const Point2& p) {

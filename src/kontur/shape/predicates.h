@@ -20,8 +20,7 @@ void for_each_edge(const Points& polygon, const Visit& visit) {
 }
 
 /// +1 when a, b, c make a left turn, -1 for a right turn, 0 when they lie on one line. Exact for the given finite doubles:
-/// evaluated in floating point where its error bound allows, else in exact arithmetic (CGAL's filtered predicates). About 20
-/// ns; 60 ns for points nearly on one line.
+/// evaluated in floating point where its error bound allows, else in integers.
 int orientation(const Point2& a, const Point2& b, const Point2& c);
 
 /// Whether p lies on the closed segment from a to b. Exact.

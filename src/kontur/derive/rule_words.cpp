@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "kontur/base/error.h"
+#include "kontur/base/number_from_chars.h"
 
 namespace kontur {
 namespace {
@@ -44,9 +44,10 @@ private:
         if (is_digit(c) || (c == '.' && at_ + 1 < rule_.size() && is_digit(rule_[at_ + 1]))) return number();
         constexpr std::string_view kSigns = "=+-|&(){},";
         if (kSigns.find(c) != std::string_view::npos) return {WordKind::sign, std::string(1, c), 0, at_++};
-        refuse_rule(rule_, at_, fmt::format("'{}' has no meaning here; names with other signs than letters, digits, '_' and "
-                                            "'.' stand in quotes",
-                                            c));
+        refuse_rule(rule_, at_,
+                    fmt::format("'{}' has no meaning here; names with other signs than letters, digits, '_' and "
+                                "'.' stand in quotes",
+                                c));
     }
 
     RuleWord quoted(char quote) {
@@ -66,7 +67,8 @@ private:
     RuleWord number() {
         RuleWord word{WordKind::number, "", 0, at_};
         const char* const first = rule_.data() + at_;
-        const auto [end, failure] = std::from_chars(first, rule_.data() + rule_.size(), word.number, std::chars_format::fixed);
+        const std::size_t after = std::min(rule_.find_first_not_of("0123456789.", at_), rule_.size());  // no exponents
+        const auto [end, failure] = number_from_chars(first, rule_.data() + after, word.number);
         if (failure != std::errc() || !std::isfinite(word.number)) refuse_rule(rule_, at_, "this is no number");
         word.text.assign(first, end);
         at_ += static_cast<std::size_t>(end - first);
@@ -93,9 +95,8 @@ void refuse_rule(const std::string& rule, std::size_t place, std::string_view se
     const std::size_t from = place > kAround ? place - kAround : 0;
     const auto column = 1 + std::count_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(place),
                                           [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-    throw Error(ErrorKind::invalid_input,
-                fmt::format("rule `{}^{}`, column {}: {}", all.substr(from, place - from), all.substr(place, kAround), column,
-                            sentence));
+    throw Error(ErrorKind::invalid_input, fmt::format("rule `{}^{}`, column {}: {}", all.substr(from, place - from),
+                                                      all.substr(place, kAround), column, sentence));
 }
 
 }  // namespace kontur

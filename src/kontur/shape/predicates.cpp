@@ -16,7 +16,7 @@ int orientation(const Point2& a, const Point2& b, const Point2& c) {
     const double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]);
     const double area = left - right, sum = std::abs(left) + std::abs(right);
     // Each product is off by at most (3u + 3u^2 + u^3) of itself, u = 2^-53: two differences and the product are rounded
-    // (Shewchuk 1997, section 4.3). A fourth u covers the rounding of the sum and, unless it is tiny, underflow. The
+    // (after Shewchuk 1997). A fourth u covers the rounding of the sum and, unless it is tiny, underflow. The
     // comparison is false where something overflowed.
     constexpr double kError = 4 * 0x1p-53, kTiny = 0x1p-900;
     if (sum >= kTiny && std::abs(area) > kError * sum) return area > 0 ? 1 : -1;

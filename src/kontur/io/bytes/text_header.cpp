@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
+
+#include "kontur/base/number_from_chars.h"
 
 namespace kontur {
 namespace {
@@ -14,7 +15,7 @@ template <typename Value>
 std::optional<Value> parse_all(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     Value value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
     return value;
 }

@@ -178,6 +178,16 @@ ContourSet read_set(const json& document) {
     return set;
 }
 
+std::vector<Plane> planes_of(const json& document) {
+    std::vector<Plane> planes;
+    for_each_plane(document, [&](const json&, const Plane& plane, PatientFrame) { planes.push_back(plane); });
+    return planes;
+}
+
+std::vector<Plane> confirmed_planes_of(const json& document) {
+    return read_bare_planes(document, "confirmed_planes", "has contours; a plane that was drawn in is corrected");
+}
+
 /// Each number is the shortest decimal that reads back as the same double; adding 0 turns -0, which JSON readers lose, to 0.
 std::string to_text(const Vec3& v) {
     if (!is_finite(v)) throw Error(ErrorKind::invalid_input, "a coordinate to be written is NaN or infinite");
@@ -250,6 +260,7 @@ std::string document_of(const std::string& name, const std::string& more, const 
 }
 
 std::string to_document(const ContourSet& set, const Provenance& provenance, const std::vector<Plane>& confirmed) {
+    check_utf8(set.name, "the structure's name");
     std::string text = document_of(set.name, members_of(set.attributes), planes_text(set.contours));
     if (!set.interior.empty()) text += ",\n\"interior\": " + to_text(set.interior);
     if (!set.exterior.empty()) text += ",\n\"exterior\": " + to_text(set.exterior);
@@ -269,21 +280,21 @@ ContourSet read_contour_json(const std::filesystem::path& path) {
     return in_context(path.string(), [&] { return read_set(document); });
 }
 
+ContourSet parse_contour_json(std::string_view text) { return read_set(parse_json(text)); }
+
 std::vector<Plane> read_planes_json(const std::filesystem::path& path) {
     const json document = read_json_file(path);
-    return in_context(path.string(), [&] {
-        std::vector<Plane> planes;
-        for_each_plane(document, [&](const json&, const Plane& plane, PatientFrame) { planes.push_back(plane); });
-        return planes;
-    });
+    return in_context(path.string(), [&] { return planes_of(document); });
 }
+
+std::vector<Plane> parse_planes_json(std::string_view text) { return planes_of(parse_json(text)); }
 
 std::vector<Plane> read_confirmed_planes_json(const std::filesystem::path& path) {
     const json document = read_json_file(path);
-    return in_context(path.string(), [&] {
-        return read_bare_planes(document, "confirmed_planes", "has contours; a plane that was drawn in is corrected");
-    });
+    return in_context(path.string(), [&] { return confirmed_planes_of(document); });
 }
+
+std::vector<Plane> parse_confirmed_planes_json(std::string_view text) { return confirmed_planes_of(parse_json(text)); }
 
 void write_planes_json(const std::filesystem::path& path, const std::vector<Plane>& planes, const std::string& name) {
     check_utf8(name, "the structure's name");
@@ -298,8 +309,9 @@ void write_contour_json(const std::filesystem::path& path, const ContourSet& set
 
 void write_corrections_json(const std::filesystem::path& path, const ContourSet& set, const std::vector<Plane>& confirmed,
                             const Provenance& provenance) {
-    check_utf8(set.name, "the structure's name");
     write_file_atomically(path, to_document(set, provenance, confirmed));
 }
+
+std::string to_contour_json(const ContourSet& set, const Provenance& provenance) { return to_document(set, provenance, {}); }
 
 }  // namespace kontur

@@ -295,6 +295,11 @@ ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOpti
     return in_context(path.string(), [&] { return read_set(document, options); });
 }
 
+ContourSet parse_markups(std::string_view text, const ReadMarkupsOptions& options) {
+    check_tolerances({.plane_tolerance_mm = options.plane_tolerance_mm});
+    return read_set(parse_json(text), options);
+}
+
 void write_markups(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance) {
     check_writable(set);
     write_file_atomically(path, to_document(set, provenance));

@@ -13,7 +13,7 @@ namespace kontur {
 
 struct ReadMarkupsOptions {
     double plane_tolerance_mm = ContourCheckOptions{}.plane_tolerance_mm;  ///< of a point from the plane fitted to its curve
-    Curves curves = Curves::spline;  ///< of files that kontur did not write; its own are polygons
+    Curves curves = Curves::spline;                   ///< of files that kontur did not write; its own are polygons
     std::function<void(std::string_view)> on_note{};  ///< what was left out, one sentence each
     std::function<void(double off_mm)> on_spline{};   ///< each curve that its spline takes so far off straight lines
 };
@@ -29,12 +29,14 @@ struct ReadMarkupsOptions {
 /// (too few points, a tolerance below 0, points on one line, a curve that is not planar, with the distance and the limit),
 /// corrupt_file.
 ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOptions& options = {});
+/// The same from the text of such a file.
+ContourSet parse_markups(std::string_view text, const ReadMarkupsOptions& options = {});
 
 /// Writes one curve per contour and one point list for all single points, in LPS and mm, whole or not at all. 3D Slicer
-/// draws a spline through the points, so contours should be drawn finely; `read_markups` gives the same points again. What the format has no place for is lost: the
-/// contours' `end`, `inside` and `weight`, the surface points' `outward`, all attributes but the colour. `provenance` goes
-/// into the key "kontur", by which kontur knows its own files and which 3D Slicer passes over. Throws Error(invalid_input) for NaN or infinite coordinates and a
-/// name that is no UTF-8.
+/// draws a spline through the points, so contours should be drawn finely; `read_markups` gives the same points again. What
+/// the format has no place for is lost: the contours' `end`, `inside` and `weight`, the surface points' `outward`, all
+/// attributes but the colour. `provenance` goes into the key "kontur", by which kontur knows its own files and which 3D
+/// Slicer passes over. Throws Error(invalid_input) for NaN or infinite coordinates and a name that is no UTF-8.
 void write_markups(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
 }  // namespace kontur

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
+#include "kontur/base/number_from_chars.h"
 #include "kontur/io/images/frame_choice_error.h"
 
 namespace kontur {
@@ -123,7 +123,7 @@ public:
         const std::string token = next_token();
         Value value{};
         const char* begin = token.data() + (token.starts_with('+') ? 1 : 0);
-        const auto [end, error] = std::from_chars(begin, token.data() + token.size(), value);
+        const auto [end, error] = number_from_chars(begin, token.data() + token.size(), value);
         if (error != std::errc{} || end != token.data() + token.size())
             fail("\"" + token + "\" among its voxels is no number of the declared type");
         return value;

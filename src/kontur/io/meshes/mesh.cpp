@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <limits>
 
 #include "kontur/base/error.h"
+#include "kontur/base/number_from_chars.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/input_file.h"
 #include "kontur/io/bytes/text_header.h"
@@ -43,7 +43,7 @@ Number parsed(std::string_view word, const char* what) {
     Number value{};
     const char* begin = word.data() + (word.size() > 1 && word.front() == '+' ? 1 : 0);
     const char* end = word.data() + word.size();
-    const auto [stop, status] = std::from_chars(begin, end, value);
+    const auto [stop, status] = number_from_chars(begin, end, value);
     if (status != std::errc() || stop != end)
         throw Error(ErrorKind::corrupt_file, fmt::format("\"{}\" stands where {} is needed", word.substr(0, 40), what));
     return value;

@@ -5,6 +5,8 @@
 
 #include <string_view>
 
+#include "kontur/shape/plain_sha256.h"
+
 namespace kontur {
 namespace {
 
@@ -31,6 +33,19 @@ TEST(Sha256, DoesNotDependOnThePieces) {
         for (std::size_t begin = 0, piece = 1; begin < length; begin += piece, piece = piece * 5 % 67 + 1)
             hash.update(std::as_bytes(std::span(whole.substr(begin, piece))));
         EXPECT_EQ(hash.hex(), sha256(whole)) << length;
+    }
+}
+
+TEST(PlainSha256, GivesOpenSslsDigestsOfEveryLengthAndInPieces) {
+    std::string text;
+    for (int n = 0; n < 300; ++n) text += static_cast<char>(37 * n % 251);
+    for (std::size_t length = 0; length <= text.size(); ++length) {
+        const std::string_view whole = std::string_view(text).substr(0, length);
+        PlainSha256 hash;
+        for (std::size_t begin = 0, piece = 1; begin < length; begin += piece, piece = piece * 5 % 67 + 1)
+            hash.update(std::as_bytes(std::span(whole.substr(begin, piece))));
+        EXPECT_EQ(hash.hex(), sha256(whole)) << length;
+        EXPECT_EQ(hash.hex(), sha256(whole)) << "asking changes nothing";
     }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "kontur/view/panels.h"
@@ -16,14 +15,6 @@ double round_length(double limit) {
 }
 
 }  // namespace
-
-std::string rounded(double value, int digits) {
-    const int before_point = value == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
-    const int decimals = std::clamp(digits - before_point, 0, 12);
-    std::array<char, 400> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals).ptr;
-    return {text.data(), end};
-}
 
 void draw_scale_bar(Canvas& canvas, const PanelPlace& place, double pixel_mm) {
     const double length_mm = round_length(0.28 * place.rect.width * pixel_mm), length = length_mm / pixel_mm;

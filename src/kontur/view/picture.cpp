@@ -178,8 +178,6 @@ Window picture::window_about(const Image& image, const Box3& box_mm) {
     return suggest_window(part);
 }
 
-std::string in_ml(double volume_ml) { return rounded(volume_ml, 4) + " ml"; }
-
 RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, const Image* image,
                       const PictureOptions& options, const Work& work) {
     check_size(options);

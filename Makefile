@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 configure = cmake --preset release $(if $(wildcard build/release/CMakeCache.txt),,-DKONTUR_BUILD_TESTS=OFF) >/dev/null
 
 .DEFAULT_GOAL := help
-.PHONY: fuzzer help setup build demo test asan tsan coverage torture-short torture tidy bench accuracy docs format install clean
+.PHONY: fuzzer help setup build demo test asan tsan coverage torture-short torture tidy bench accuracy wheel docs format install clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -78,6 +78,10 @@ accuracy: build ## organs of DATA, a folder of scans, by kontur and its peers, i
 	@test -d "$(DATA)" || { echo "make accuracy: say where the scans are: make accuracy DATA=FOLDER"; exit 1; }
 	@/usr/bin/python3 bench/organs.py "$(DATA)" build/organs --kontur build/release/bin/kontur --jobs $(JOBS)
 	@cat build/organs/tables.md
+
+wheel: ## build a Python wheel that needs the C library and NumPy alone into build/wheels (dpkg-dev; builds DCMTK once)
+	@tools/setup build python dpkg-dev
+	@packaging/build_wheel
 
 docs: ## write the C++ reference to build/release/reference/html (installs doxygen)
 	@tools/setup build doxygen

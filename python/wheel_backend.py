@@ -2,7 +2,8 @@
 """Builds the wheel and the sdist (PEP 517) with nothing but CMake and the standard library; the sdist needs git.
 
 The module links against the libraries of this machine's Debian, so the wheel is for machines like it. With
---config-settings=build-dir=FOLDER a build that is there is packed instead of a new one; a relative FOLDER counts from the
+--config-settings=static=FOLDER, which has static libraries of DCMTK, it stands alone: packaging/build_wheel makes both. With
+--config-settings=build-dir=FOLDER a build that is there is packed instead of a new one; relative folders count from the
 repository. `python3 python/wheel_backend.py FOLDER` writes the sdist into a folder.
 """
 import base64
@@ -21,6 +22,8 @@ import zipfile
 HERE = pathlib.Path(__file__).parent
 ROOT = HERE.parent
 SOURCES = ["CMakeLists.txt", "LICENSE", "README.md", "apps", "packaging", "python", "src"]
+# Debian's, of which a wheel that stands alone has the code.
+STATIC_PACKAGES = ["libdcmtk-dev", "libopenjp2-7-dev", "libpng-dev", "zlib1g-dev", "libbz2-dev", "libfmt-dev", "libstdc++-12-dev"]
 PYTHON = f"cp{sys.version_info.major}{sys.version_info.minor}"
 
 
@@ -30,11 +33,12 @@ def _cmake(*words):
     subprocess.run(["cmake", *words], check=True, env=environment)
 
 
-def _built_package(build):
+def _built_package(build, static):
     """The folder with the importable package, built if need be."""
     if not (build / "CMakeCache.txt").exists():
         left_out = [f"-DKONTUR_{name}=OFF" for name in ("BUILD_TESTS", "BUILD_BENCH", "BUILD_PAGE", "SHARED")]
-        _cmake("-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", *left_out)
+        alone = [f"-DKONTUR_STATIC={ROOT / static}"] if static else []
+        _cmake("-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", *left_out, *alone)
     _cmake("--build", build, "--target", "kontur_python_stubs", "--parallel", str(os.cpu_count()))
     return build / "python" / "kontur"
 
@@ -43,9 +47,10 @@ def _version():
     return re.search(r"^project\(kontur VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
 
 
-def _metadata(version):
+def _metadata(version, licences=("LICENSE", "copyright")):
     return (f"Metadata-Version: 2.1\nName: kontur\nVersion: {version}\nSummary: Smooth 3D organs from a few hand-drawn contours\n"
-            "License: Apache-2.0\nLicense-File: LICENSE\nLicense-File: copyright\nRequires-Python: >=3.9\nRequires-Dist: numpy\n")
+            "License: Apache-2.0\n" + "".join(f"License-File: {name}\n" for name in licences) +
+            "Requires-Python: >=3.9\nRequires-Dist: numpy\n")
 
 
 def _record_line(name, content):
@@ -53,15 +58,38 @@ def _record_line(name, content):
     return f"{name},sha256={digest},{len(content)}\n"
 
 
-def _pack(package, version, wheel):
-    tag = f"{PYTHON}-{PYTHON}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+def _needed(module):
+    """The libraries that a module loads, and the highest version of glibc among its symbols."""
+    dynamic = subprocess.run(["readelf", "--wide", "--dynamic", "--version-info", module], check=True, capture_output=True, text=True).stdout
+    versions = [int(minor) for minor in re.findall(r"Name: GLIBC_2\.(\d+)", dynamic)]
+    return set(re.findall(r"\(NEEDED\).*\[([^]]+)\]", dynamic)), max(versions, default=0)
+
+
+def _platform(module):
+    """manylinux_2_N (PEP 600) of a module that needs the C library alone, of version 2.N."""
+    platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    libraries, minor = _needed(module)
+    others = {name for name in libraries if not re.match(r"(libc|libm|libpthread|libdl|librt|ld-linux[-a-z0-9_]*)\.so", name)}
+    return platform if others else platform.replace("linux", f"manylinux_2_{minor}")
+
+
+def _licences(static):
+    """Of kontur, and of what is compiled into the module."""
+    paths = [ROOT / "LICENSE", ROOT / "packaging/copyright"]
+    files = {path.name: path.read_bytes() for path in paths}
+    for package in STATIC_PACKAGES if static else []:
+        files[f"copyright-{package}"] = pathlib.Path("/usr/share/doc", package, "copyright").read_bytes()
+    return files
+
+
+def _pack(package, version, wheel, licences):
+    [module] = package.glob("_core*.so")
+    tag = f"{PYTHON}-{PYTHON}-{_platform(module)}"
     name = f"kontur-{version}-{tag}.whl"
     information = f"kontur-{version}.dist-info"
     files = {f"kontur/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()}
-    files[f"{information}/METADATA"] = _metadata(version).encode()
-    # Of kontur, and of what is compiled into the module.
-    for licence in (ROOT / "LICENSE", ROOT / "packaging/copyright"):
-        files[f"{information}/{licence.name}"] = licence.read_bytes()
+    files[f"{information}/METADATA"] = _metadata(version, licences).encode()
+    files |= {f"{information}/{name}": text for name, text in licences.items()}
     files[f"{information}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: kontur\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     record = f"{information}/RECORD"
     files[record] = ("".join(_record_line(*item) for item in files.items()) + f"{record},,\n").encode()
@@ -75,10 +103,11 @@ def _pack(package, version, wheel):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Called by pip; returns the wheel's file name."""
-    given = (config_settings or {}).get("build-dir")
+    given = config_settings or {}
+    static = given.get("static")
     with tempfile.TemporaryDirectory() as temporary:
-        build = ROOT / (given or temporary)
-        return _pack(_built_package(build), _version(), pathlib.Path(wheel_directory))
+        build = ROOT / given.get("build-dir", temporary)
+        return _pack(_built_package(build, static), _version(), pathlib.Path(wheel_directory), _licences(static))
 
 
 def build_sdist(sdist_directory, config_settings=None):

@@ -9,7 +9,7 @@ target_include_directories(kontur_json SYSTEM INTERFACE ${JSON_INCLUDE_DIR})
 
 file(STRINGS ${FMT_INCLUDE_DIR}/fmt/core.h version REGEX "^#define FMT_VERSION ")
 if(version MATCHES " 9....$")
-  add_library(kontur_fmt STATIC base/fmt_definitions.cpp)
+  add_library(kontur_fmt STATIC fmt_definitions.cpp)
   target_include_directories(kontur_fmt SYSTEM PUBLIC ${FMT_INCLUDE_DIR})
   target_compile_features(kontur_fmt PUBLIC cxx_std_20)
   target_compile_definitions(kontur_fmt INTERFACE FMT_SHARED)  # the flags of other builds, whose objects ccache has

@@ -262,6 +262,22 @@ TEST_F(ContourJson, DeepNestingIsRefusedWithoutExhaustingTheStack) {
     EXPECT_LT(refusal(std::string(1'000'000, '[')).size(), 500u);
 }
 
+TEST_F(ContourJson, TextGivesWhatItsFileGives) {
+    const ContourSet set = parse_contour_json(kSmall);
+    EXPECT_EQ(to_contour_json(set), to_contour_json(read(kSmall)));
+    EXPECT_EQ(set.contours.size(), 3u);
+    EXPECT_EQ(parse_planes_json(kSmall), read_planes_json(file(kSmall)));
+    EXPECT_TRUE(parse_confirmed_planes_json(kSmall).empty());
+    write_contour_json(folder_ / "out.json", set);
+    EXPECT_EQ(content_of(folder_ / "out.json"), to_contour_json(set));
+    try {
+        parse_contour_json(replaced("[4, 0, 3]", "[4, 0]"));
+        ADD_FAILURE() << "a point of two numbers was taken";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "plane 1: contour 1: point 2: has 2 items, not the 3 numbers x, y, z");
+    }
+}
+
 TEST_F(ContourJson, WritingAndReadingGivesTheSameDoubles) {
     std::mt19937 random = test::random_of_this_test();
     std::uniform_real_distribution<double> number(-1000, 1000);

@@ -64,6 +64,13 @@ TEST_F(Markups, ReadsAClosedCurveWithItsPlane) {
     EXPECT_NO_THROW(check_contours(set));
 }
 
+TEST_F(Markups, TextGivesWhatItsFileGives) {
+    const ContourSet from_text = parse_markups(kSmall, {.curves = Curves::polygon}), from_file = read(kSmall);
+    EXPECT_EQ(from_text.name, from_file.name);
+    ASSERT_EQ(from_text.contours.size(), 1u);
+    EXPECT_EQ(from_text.contours[0].points, from_file.contours[0].points);
+}
+
 TEST_F(Markups, FramesByNameAndByNumber) {
     const Vec3 lps{13, -11, 112.5}, ras{-13, 11, 112.5};
     for (const auto& [text, first] : std::vector<std::pair<std::string, Vec3>>{

@@ -79,8 +79,8 @@ accuracy: build ## organs of DATA, a folder of scans, by kontur and its peers, i
 	@/usr/bin/python3 bench/organs.py "$(DATA)" build/organs --kontur build/release/bin/kontur --jobs $(JOBS)
 	@cat build/organs/tables.md
 
-wheel: ## build a Python wheel that needs the C library and NumPy alone into build/wheels (dpkg-dev; builds DCMTK once)
-	@tools/setup build python dpkg-dev
+wheel: ## build a Python wheel that needs the C library and NumPy alone into build/wheels (installs dpkg-dev and patchelf, builds DCMTK once)
+	@tools/setup build python dpkg-dev patchelf
 	@packaging/build_wheel
 
 docs: ## write the C++ reference to build/release/reference/html (installs doxygen)

@@ -2,7 +2,8 @@
 """Builds the wheel and the sdist (PEP 517) with nothing but CMake and the standard library; the sdist needs git.
 
 The module links against the libraries of this machine's Debian, so the wheel is for machines like it. With
---config-settings=static=FOLDER, which has static libraries of DCMTK, it stands alone: packaging/build_wheel makes both. With
+--config-settings=static=FOLDER, which has static libraries of DCMTK, it stands alone, and has other libraries in it (needs patchelf):
+packaging/build_wheel makes both. With
 --config-settings=build-dir=FOLDER a build that is there is packed instead of a new one; relative folders count from the
 repository. `python3 python/wheel_backend.py FOLDER` writes the sdist into a folder.
 """
@@ -12,6 +13,7 @@ import io
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -22,6 +24,7 @@ import zipfile
 HERE = pathlib.Path(__file__).parent
 ROOT = HERE.parent
 SOURCES = ["CMakeLists.txt", "LICENSE", "README.md", "apps", "packaging", "python", "src"]
+OF_GLIBC = re.compile(r"(libc|libm|libpthread|libdl|librt|ld-linux[-a-z0-9_]*)\.so")
 # Debian's, of which a wheel that stands alone has the code.
 STATIC_PACKAGES = ["libdcmtk-dev", "libopenjp2-7-dev", "libpng-dev", "zlib1g-dev", "libbz2-dev", "libfmt-dev", "libstdc++-12-dev"]
 PYTHON = f"cp{sys.version_info.major}{sys.version_info.minor}"
@@ -58,19 +61,35 @@ def _record_line(name, content):
     return f"{name},sha256={digest},{len(content)}\n"
 
 
-def _needed(module):
-    """The libraries that a module loads, and the highest version of glibc among its symbols."""
-    dynamic = subprocess.run(["readelf", "--wide", "--dynamic", "--version-info", module], check=True, capture_output=True, text=True).stdout
-    versions = [int(minor) for minor in re.findall(r"Name: GLIBC_2\.(\d+)", dynamic)]
-    return set(re.findall(r"\(NEEDED\).*\[([^]]+)\]", dynamic)), max(versions, default=0)
+def _output(*words):
+    return subprocess.run(words, check=True, capture_output=True, text=True).stdout
 
 
-def _platform(module):
-    """manylinux_2_N (PEP 600) of a module that needs the C library alone, of version 2.N."""
-    platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-    libraries, minor = _needed(module)
-    others = {name for name in libraries if not re.match(r"(libc|libm|libpthread|libdl|librt|ld-linux[-a-z0-9_]*)\.so", name)}
-    return platform if others else platform.replace("linux", f"manylinux_2_{minor}")
+def _bundle(module, folder):
+    """The module and the libraries that it loads beside the C library's, copied into a folder to find each other in a wheel. Their names
+    get digests: another package may have brought another version of them into the process."""
+    copies = {module.name: folder / module.name}
+    shutil.copy(module, copies[module.name])
+    for name, path in re.findall(r"^\s+(\S+) => (/\S+)", _output("ldd", module), re.MULTILINE):
+        if not OF_GLIBC.match(name):
+            digest = hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()[:8]
+            copies[name] = folder / name.replace(".so", f"-{digest}.so", 1)
+            shutil.copy(path, copies[name])
+    for name, path in copies.items():
+        own = name == module.name
+        _output("patchelf", "--set-rpath", "$ORIGIN/../kontur.libs" if own else "$ORIGIN", *([] if own else ["--set-soname", path.name]), path)
+        for needed, copy in copies.items():
+            _output("patchelf", "--replace-needed", needed, copy.name, path)
+    return {("kontur/" if name == module.name else "kontur.libs/") + path.name: path for name, path in copies.items()}
+
+
+def _platform(files):
+    """manylinux_2_N (PEP 600) of files that need each other and the C library alone, of version 2.N."""
+    dynamic = "".join(_output("readelf", "--wide", "--dynamic", "--version-info", path) for path in files.values())
+    needed = set(re.findall(r"\(NEEDED\).*\[([^]]+)\]", dynamic)) - {path.name for path in files.values()}
+    if others := [name for name in needed if not OF_GLIBC.match(name)]:
+        sys.exit(f"the wheel would need {', '.join(sorted(others))}")
+    return "manylinux_2_" + max(re.findall(r"Name: GLIBC_2\.(\d+)", dynamic), key=int)
 
 
 def _licences(static):
@@ -82,12 +101,16 @@ def _licences(static):
     return files
 
 
-def _pack(package, version, wheel, licences):
-    [module] = package.glob("_core*.so")
-    tag = f"{PYTHON}-{PYTHON}-{_platform(module)}"
+def _pack(package, version, wheel, licences, bundled):
+    """`bundled`: files by their names in the wheel that take the place of the package's, or come beside them."""
+    machine = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    if bundled:
+        machine = _platform(bundled) + machine.removeprefix("linux")
+    tag = f"{PYTHON}-{PYTHON}-{machine}"
     name = f"kontur-{version}-{tag}.whl"
     information = f"kontur-{version}.dist-info"
     files = {f"kontur/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()}
+    files |= {name: path.read_bytes() for name, path in bundled.items()}
     files[f"{information}/METADATA"] = _metadata(version, licences).encode()
     files |= {f"{information}/{name}": text for name, text in licences.items()}
     files[f"{information}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: kontur\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
@@ -107,7 +130,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     static = given.get("static")
     with tempfile.TemporaryDirectory() as temporary:
         build = ROOT / given.get("build-dir", temporary)
-        return _pack(_built_package(build, static), _version(), pathlib.Path(wheel_directory), _licences(static))
+        package = _built_package(build, static)
+        bundled = _bundle(next(package.glob("_core*.so")), pathlib.Path(temporary)) if static else {}
+        return _pack(package, _version(), pathlib.Path(wheel_directory), _licences(static), bundled)
 
 
 def build_sdist(sdist_directory, config_settings=None):

@@ -21,7 +21,7 @@ def needed_sources(build):
     stand_ins = {"fmt_definitions.cpp", "no_compression.cpp", "sha256_without_openssl.cpp", "solvers_without_openblas.cpp"}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         if pathlib.Path(entry["file"]).name in members | stand_ins:
-            yield entry["output"]
+            yield re.search(r" -o (\S+)", entry["command"])[1]
 
 
 def cross_built():
@@ -32,7 +32,7 @@ def cross_built():
                    "-DCMAKE_C_COMPILER=aarch64-linux-gnu-gcc", f"-DFMT_INCLUDE_DIR={include}", f"-DJSON_INCLUDE_DIR={include}",
                    "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O1")
     objects = sorted(set(needed_sources(build)))
-    subprocess.run(["ninja", "-C", build, *objects], check=True)
+    subprocess.run(["ninja", "-C", build, "-j2", *objects], check=True)
     source = pathlib.Path(__file__).with_name("program.cpp")
     subprocess.run([compiler, "-std=c++20", "-O1", f"-I{source.parents[2]}/src", source, *objects, "-static", "-o", "program"], cwd=build, check=True)
     return build / "program"

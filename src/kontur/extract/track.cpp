@@ -178,8 +178,7 @@ std::vector<Index3> cells_at(const Grid& grid, std::span<const Vec3> points) {
         if (fits_index(at)) cells.push_back(cell_of(at));
     }
     std::ranges::sort(cells, {}, [](const Index3& c) { return std::tuple(c.k, c.j, c.i); });
-    const auto repeated = std::ranges::unique(cells);
-    cells.erase(repeated.begin(), repeated.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());  // clang 14 cannot compile the one of std::ranges
     return cells;
 }
 

@@ -6,7 +6,6 @@
 // What goes in and comes out.
 #include "kontur/base/error.h"
 #include "kontur/base/geometry.h"
-#include "kontur/base/stop.h"
 #include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/contour.h"

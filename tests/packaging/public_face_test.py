@@ -35,8 +35,8 @@ def test_the_stable_face_is_about_40_headers_and_70_types():
 
 
 def test_it_needs_few_headers_more():
-    assert len(reach("kontur/kontur.h")) <= 74
-    assert len(types(reach("kontur/kontur.h"))) <= 136
+    assert len(reach("kontur/kontur.h")) <= 75
+    assert len(types(reach("kontur/kontur.h"))) <= 139
 
 
 def test_stages_are_no_part_of_it():

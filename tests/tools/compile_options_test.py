@@ -31,8 +31,11 @@ def options_of(source):
     return command
 
 
-def test_exact_predicates_may_change_the_rounding():
-    assert "-frounding-math" in options_of("shape/predicates.cpp")
+@pytest.mark.parametrize("source", ["predicates", "sign_of_sum"])
+def test_exact_predicates_round_each_operation(source):
+    options = options_of(f"shape/{source}.cpp")
+    assert [option for option in options if option.startswith("-ffp-contract")][-1] == "-ffp-contract=off"
+    assert not {"-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-fassociative-math"} & set(options)
 
 
 @pytest.mark.parametrize("source", ["solve/h2_basis", "solve/h2_interpolation", "solve/pair_sums", "solve/preconditioner",

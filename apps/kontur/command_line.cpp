@@ -30,14 +30,30 @@ std::string footer() {
         code(ErrorKind::singular_system), code(ErrorKind::io), code(ErrorKind::too_large), code(ErrorKind::cancelled));
 }
 
+void add_archive_options(CLI::App& sub, ArchiveOptions& archive) {
+    sub.add_option("--credentials", archive.credentials,
+                   "Of an archive: file of one line, user:password or Bearer TOKEN [$KONTUR_ARCHIVE_CREDENTIALS]")
+        ->type_name("FILE");
+    sub.add_option("--ca", archive.ca, "Certificates (PEM) of the archive's own authority [the system's]")
+        ->type_name("FILE");
+    sub.add_option("--give-up-s", archive.give_up_s, "Give up an archive that sends next to nothing for so many seconds")
+        ->type_name("S")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 86400));
+}
+
 /// Adds the subcommand that runs a `Command`. Its members' values at this point are the defaults that --help shows.
 template <class Command>
 struct Binder {
     Binder(CLI::App& app, Invocation& its_invocation, const std::string& name, const std::string& description,
            const std::string& example)
-        : invocation(its_invocation), sub(app.add_subcommand(name, description)), command(std::make_shared<Command>()) {
+        : invocation(its_invocation),
+          sub(app.add_subcommand(name, description)),
+          command(std::make_shared<Command>()),
+          archive(std::make_shared<ArchiveWords>()) {
         sub->footer("Example:\n  " + example);
-        sub->parse_complete_callback([&target = invocation, command = command] {
+        sub->parse_complete_callback([&target = invocation, command = command, words = archive] {
+            target.archive = words;
             target.command = [command](Console& console) { run(*command, console); };
             if constexpr (std::is_same_v<Command, SegmentCommand>) target.check = [command] { check_words(*command); };
         });
@@ -63,9 +79,17 @@ struct Binder {
     }
     void quiet() { flag("--quiet", invocation.quiet, "No progress bar and no results, only warnings and errors"); }
 
+    /// The words that may be addresses of an archive, and how it is reached.
+    void addresses(std::vector<ArchiveWords::Place> places, std::vector<ArchiveWords::List> lists = {}) {
+        archive->places = std::move(places);
+        archive->lists = std::move(lists);
+        add_archive_options(*sub, archive->options);
+    }
+
     Invocation& invocation;
     CLI::App* sub;
     std::shared_ptr<Command> command;
+    std::shared_ptr<ArchiveWords> archive;
 };
 
 /// A number of this range, which "nan" is not. What is no number at all the option's type refuses by itself.
@@ -293,6 +317,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     add_series_words(*bind.sub, c.series);
     bind.flag("--date", c.date, "Say in the outputs when they were made; without it the same input gives the same bytes");
     add_fitting(*bind.sub, c, image);
+    bind.addresses({{&c.image.path, &c.image.options.dicom.series_uid}}, {{&c.contours}});
     bind.quiet();
 }
 
@@ -365,6 +390,7 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     add_read_options(*bind.sub, c.read);
     add_series_options(*bind.sub, c.image.options.dicom);
     for (const char* option : {"--series", "--volume", "--resample-slices"}) bind.sub->get_option(option)->needs(image);
+    bind.addresses({{&c.image.path, &c.image.options.dicom.series_uid}, {&c.mask}});
     bind.quiet();
 }
 
@@ -403,6 +429,7 @@ void add_correct(CLI::App& app, Invocation& invocation) {
     add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.mask.options);
     add_series_options(*bind.sub, c.mask.options.dicom);
+    bind.addresses({{&c.mask.path}, {&c.image, &c.mask.options.dicom.series_uid}}, {{&c.corrections}});
     bind.quiet();
 }
 
@@ -433,6 +460,7 @@ void add_derive(CLI::App& app, Invocation& invocation) {
     add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
+    bind.addresses({{&c.image.path, &c.image.options.dicom.series_uid}}, {{&c.inputs}});
     bind.quiet();
 }
 
@@ -558,6 +586,7 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
     bind.sub->final_callback([&c] {
         if (c.contours.empty() && c.mask.empty()) throw CLI::RequiredError("CONTOURS");
     });
+    bind.addresses({{&c.image.path, &c.image.options.dicom.series_uid}, {&c.mask}}, {{&c.contours}});
     bind.quiet();
 }
 
@@ -584,6 +613,7 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
     bind.word("FILE", c.files, "Images, DICOM folders, contours, structure sets, meshes");
     bind.flag("--check", c.check, "List everything wrong or doubtful in contours, with its place; each file by itself");
     bind.flag("--json", c.json, "Print JSON");
+    bind.addresses({}, {{&c.files, &c.read.dicom.series_uid}});
     add_read_options(*bind.sub, c.read);
     add_series_options(*bind.sub, c.read.dicom);
 }
@@ -606,6 +636,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     add_series_words(*bind.sub, c.series);
     add_read_options(*bind.sub, c.input.options);
     add_series_options(*bind.sub, c.input.options.dicom);
+    bind.addresses({{&c.input.path, &c.input.options.dicom.series_uid}, {&c.image, &c.input.options.dicom.series_uid}});
     bind.quiet();
 }
 
@@ -619,6 +650,45 @@ void add_phantom(CLI::App& app, Invocation& invocation) {
     bind.defaulted("--noise-hu", c.options.noise_hu, "HU", "Standard deviation of the image noise");
     bind.defaulted("--seed", c.options.seed, "N", "Of the noise")->check(whole_number());
     add_threads(*bind.sub, c.threads);
+    bind.quiet();
+}
+
+void add_find(CLI::App& app, Invocation& invocation) {
+    Binder<FindCommand> bind(app, invocation, "find", "List studies, series or objects of an archive (DICOMweb)",
+                             "kontur find https://archive.example/dicom-web --name Doe --modality CT");
+    FindCommand& c = *bind.command;
+    bind.word("ADDRESS", c.address,
+              "The service, which lists studies; with /studies/UID its series, /series/UID its objects");
+    bind.option("--name", c.filter.name, "NAME",
+                "The patient's name begins so, family name first; * and ? stand for others");
+    bind.option("--id", c.filter.patient_id, "ID", "The patient's number; * and ? stand for others");
+    bind.option("--date", c.filter.date, "DATE", "Of the study: YYYY-MM-DD, FROM..TO, FROM.. or ..TO");
+    bind.option("--modality", c.filter.modality, "NAME", "The study has a series of it: CT, MR, PT, SEG, RTSTRUCT, ...");
+    bind.defaulted("--most", c.filter.most, "N", "Studies to list")->check(between(1, 10000));
+    bind.flag("--json", c.json, "Print JSON");
+    add_archive_options(*bind.sub, c.access);
+}
+
+void add_fetch(CLI::App& app, Invocation& invocation) {
+    Binder<FetchCommand> bind(app, invocation, "fetch", "Fetch a study, a series or an object from an archive (DICOMweb)",
+                              "kontur fetch https://archive.example/dicom-web/studies/1.2.3 --output study/");
+    FetchCommand& c = *bind.command;
+    bind.word("ADDRESS", c.address, "SERVICE/studies/UID; with /series/UID one series, and /instances/UID one object");
+    bind.option("-o,--output", c.output, "DIR",
+                "Folder to make: for a study with a folder for each series; for an object the file (.dcm)")
+        ->required();
+    bind.option("--modality", c.modality, "NAME", "Of a study only series of it");
+    add_archive_options(*bind.sub, c.access);
+    bind.quiet();
+}
+
+void add_send(CLI::App& app, Invocation& invocation) {
+    Binder<SendCommand> bind(app, invocation, "send", "Store DICOM files in the archive that has their study (DICOMweb)",
+                             "kontur send seg.dcm contours.dcm --archive https://archive.example/dicom-web");
+    SendCommand& c = *bind.command;
+    bind.word("FILES", c.files, "DICOM files, such as a SEG and an RTSTRUCT; what the archive has already is left as it is");
+    bind.option("--archive", c.address, "ADDRESS", "The service")->required();
+    add_archive_options(*bind.sub, c.access);
     bind.quiet();
 }
 
@@ -657,6 +727,12 @@ void add_open(CLI::App& app, Invocation& invocation) {
     bind.flag("--no-browser", c.no_browser, "Only print the address");
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
+    bind.addresses({{&c.second_image.path, &c.second_image.options.dicom.series_uid}},
+                   {{&c.files, &c.image.options.dicom.series_uid}});
+    bind.archive->with_drawings = true;
+    bind.option("--archive", c.archive_address, "ADDRESS", "DICOMweb service whose studies the page lists")
+        ->each([words = bind.archive.get()](const std::string&) { words->is_for_page = true; });
+    c.archive_options = &bind.archive->options;
     add_second_image(*bind.sub, c.second_image);
 }
 
@@ -729,6 +805,9 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_inspect(app, invocation);
     add_convert(app, invocation);
     add_phantom(app, invocation);
+    add_find(app, invocation);
+    add_fetch(app, invocation);
+    add_send(app, invocation);
     add_open(app, invocation);
 
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "archive_words.h"
 #include "console.h"
 
 namespace kontur::app {
@@ -23,7 +25,8 @@ struct Invocation {
     bool quiet = false;                     ///< for the Console
     std::vector<std::string> options;       ///< the long ones of the command
     std::function<void(Console&)> command;  ///< empty: show `text` instead
-    std::function<void()> check;            ///< of segment: check_words(); else empty
+    std::shared_ptr<const ArchiveWords> archive;  ///< words of the command that may be addresses; nullptr: none
+    std::function<void()> check;                  ///< of segment: check_words(); else empty
 };
 
 Invocation parse_command_line(int argc, const char* const* argv);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "archive/query.h"
+#include "archive_words.h"
 #include "console.h"
 #include "dicom_output.h"
 #include "files.h"
@@ -224,6 +226,32 @@ struct ConvertCommand {
 };
 void run(const ConvertCommand& command, Console& console);
 
+/// What an archive has: its studies, the series of one, the objects of a series.
+struct FindCommand {
+    std::string address;
+    archive::StudyFilter filter;
+    bool json = false;
+    ArchiveOptions access;
+};
+void run(const FindCommand& command, Console& console);
+
+/// From an archive onto the disk.
+struct FetchCommand {
+    std::string address;           ///< of a study, a series or an object
+    std::filesystem::path output;  ///< a folder; of an object a file
+    std::string modality;          ///< of a study only these series; empty: all
+    ArchiveOptions access;
+};
+void run(const FetchCommand& command, Console& console);
+
+/// Results into the archive that has their study.
+struct SendCommand {
+    std::vector<std::filesystem::path> files;
+    std::string address;  ///< of the service
+    ArchiveOptions access;
+};
+void run(const SendCommand& command, Console& console);
+
 /// The application in the browser.
 struct OpenCommand {
     std::vector<std::filesystem::path> files;  ///< an image, contours, a project; none: the page chooses
@@ -233,6 +261,8 @@ struct OpenCommand {
     std::filesystem::path project;  ///< empty: the one among `files`, beside the contours, or in the user's data folder
     viewer::ServerOptions server;
     bool no_browser = false;
+    std::string archive_address;                      ///< that pages may reach; empty: none
+    const ArchiveOptions* archive_options = nullptr;  ///< how
 };
 void run(const OpenCommand& command, Console& console);
 

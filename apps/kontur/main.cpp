@@ -33,6 +33,7 @@ void fill_closed_streams() {
 void run_command(const Invocation& invocation) {
     const Interrupt interrupt;
     Console console(invocation.quiet, interrupt.token(), invocation.options);
+    if (invocation.archive) fetch_addresses(*invocation.archive, console);
     invocation.command(console);
 }
 

@@ -12,6 +12,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "child_process.h"
@@ -84,13 +85,25 @@ std::unique_ptr<viewer::TemporaryFolder> open_browser(const std::string& address
     }
 }
 
-viewer::Workspace::Services services(const Words& words) {
+/// Throws what the archive's address and credentials have wrong.
+std::optional<viewer::NamedArchive> named_archive(const OpenCommand& command) {
+    if (command.archive_address.empty()) return std::nullopt;
+    const archive::Address address = archive::parse_address(command.archive_address);
+    viewer::NamedArchive named{{address.service, "", "", ""}, access_of(*command.archive_options)};
+    const archive::Http checked(named.service, named.access);
+    return named;
+}
+
+viewer::Workspace::Services services(const OpenCommand& command, const Words& words) {
     std::vector<viewer::Place> places = viewer::usual_places();
     std::error_code ignored;
     if (fs::is_directory(words.image, ignored)) places.insert(places.begin(), {words.title(), fs::absolute(words.image)});
     return {[](const viewer::OpenRequest& request, const Work& work) { return open_project(request, work); },
             [](const viewer::OpenRequest& request, const Work& work) { return read_second_image(request, work); },
-            viewer::Places(places), viewer_file("recent.json"), viewer_file("arrangements.json")};
+            viewer::Places(places),
+            viewer_file("recent.json"),
+            viewer_file("arrangements.json"),
+            named_archive(command)};
 }
 
 /// The command's own image, read in the background of the workspace, which must not outlive it.
@@ -203,7 +216,7 @@ void run(const OpenCommand& command, Console& console) {
     viewer::remove_left_folders();
     const Words words = sorted_words(command);
     FirstImage first(command, words, console);
-    viewer::Workspace workspace(services(words));
+    viewer::Workspace workspace(services(command, words));
     const bool is_named = !words.is_empty();
     if (is_named) {
         first.begin(workspace);

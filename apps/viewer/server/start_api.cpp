@@ -38,6 +38,16 @@ void keep_arrangement(Workspace& workspace, const std::string& body) {
     workspace.arrangements().keep(document["modality"].get<std::string>(), document["state"]);
 }
 
+void open_archived(Workspace& workspace, const std::string& body) {
+    const json document = parsed_request(body, "ArchivedRequest");
+    const auto uid = [&](const char* name) {
+        const std::string text = document[name].get<std::string>();
+        if (!archive::is_uid(text)) throw Error(ErrorKind::invalid_input, fmt::format("'{}' is no UID", name));
+        return text;
+    };
+    workspace.open_archived(uid("study"), uid("series"), document["title"].get<std::string>());
+}
+
 /// Says in all pages how far the search is, as long as it lives.
 class SearchStatus {
 public:
@@ -82,8 +92,14 @@ std::optional<StartReply> start_api(Workspace& workspace, const std::string& met
     if (method == "GET" && target.path == "/api/thumbnail")
         return StartReply{"application/octet-stream", (target.parameter("volume") ? frame_thumbnail : thumbnail)(
                                                           places.resolved(needed(target, "file")), frame_of(target))};
+    if (method == "GET" && target.path.starts_with("/api/archive/")) {
+        std::optional<ArchiveReply> reply = archive_api(workspace.archive(), target, stop);
+        if (!reply) return std::nullopt;
+        return StartReply{std::move(reply->content_type), std::move(reply->body)};
+    }
     if (method != "POST") return std::nullopt;
     if (target.path == "/api/open") workspace.open(open_request_from(parsed_request(body, "OpenRequest")));
+    else if (target.path == "/api/archive/open") open_archived(workspace, body);
     else if (target.path == "/api/cancel") workspace.cancel();
     else if (target.path == "/api/close") workspace.close();
     else if (target.path == "/api/arrangement") keep_arrangement(workspace, body);

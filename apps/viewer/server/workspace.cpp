@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/cache.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom/uneven_slices_error.h"
 #include "kontur/io/images/frame_choice_error.h"
@@ -96,6 +97,7 @@ std::string Workspace::start_event() const {
                     {"places", places_json()},
                     {"recent", recent},
                     {"folder", folder_},
+                    {"archive", services_.archive ? services_.archive->service.host() : ""},
                     {"sentence", sentence_},
                     {"opening", opening}});
 }
@@ -267,6 +269,26 @@ void Workspace::open(const OpenRequest& request) {
     if (!is_known) checked.path = services_.places.resolved(request.path.string());
     if (!request.image.empty()) checked.image = services_.places.resolved(request.image.string());
     begin(checked.path.filename().string(), [this, checked](const Work& work) { return services_.open(checked, work); });
+}
+
+const NamedArchive& Workspace::archive() const {
+    if (!services_.archive) throw Error(ErrorKind::unsupported, "kontur was started without an archive (--archive)");
+    return *services_.archive;
+}
+
+void Workspace::open_archived(const std::string& study_uid, const std::string& series_uid, const std::string& title) {
+    const archive::Address series = [&] {
+        archive::Address address = archive().service;
+        address.study_uid = study_uid;
+        address.series_uid = series_uid;
+        return address;
+    }();
+    begin(title, [this, series](const Work& work) {
+        archive::Http http(series, archive().access);
+        const std::vector<archive::Series> all = archive::find_series(http, series.study_uid, work.untold());
+        archive::fetch_drawings_to_cache(http, all, series, work.untold());
+        return services_.open({archive::fetch_to_cache(http, series, work)}, work);
+    });
 }
 
 void Workspace::put_second_image(const OpenRequest& request, const std::optional<std::string>& opening,

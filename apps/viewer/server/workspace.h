@@ -18,6 +18,7 @@
 
 #include "kontur/base/stop.h"
 #include "kontur/base/work.h"
+#include "viewer/server/archive_api.h"
 #include "viewer/session/session.h"
 #include "viewer/store/arrangements.h"
 #include "viewer/store/places.h"
@@ -49,6 +50,7 @@ public:
         Places places{};
         std::filesystem::path recent{};        ///< the file that lists projects; empty: none is kept
         std::filesystem::path arrangements{};  ///< the file of how the page was arranged; empty: that is not kept
+        std::optional<NamedArchive> archive{};
     };
 
     explicit Workspace(Services services);
@@ -84,6 +86,9 @@ public:
 
     /// For pages: as `begin`, of what is a recent project, the example, or lies in one of the places.
     void open(const OpenRequest& request);
+    /// For pages: as `begin`, of a series of the archive, with what was drawn in its study. Throws Error(unsupported)
+    /// without an archive.
+    void open_archived(const std::string& study_uid, const std::string& series_uid, const std::string& title);
     /// For pages: reads what lies in one of the places, and shows it beside the open session's image. Returns when it is
     /// there; status lines say how far it is. Throws as `session` and `Session::put_second_image`, what the reader throws,
     /// and Error(invalid_input) while another one is read.
@@ -96,6 +101,8 @@ public:
     void suggest(const std::filesystem::path& folder, const std::string& sentence);
 
     const Places& places() const { return services_.places; }
+    /// Throws Error(unsupported) where the command named none.
+    const NamedArchive& archive() const;
     /// How the page is arranged for images of each modality.
     Arrangements& arrangements() { return arrangements_; }
     /// Tells pages' status lines what is being done; "": nothing.

@@ -2,7 +2,7 @@
 import { BinaryReply } from "./binary";
 import { Link } from "./link";
 import type { CodedMesh } from "./mesh_code";
-import type { Comparison, Folder, ImportReply, NearDrawing, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
+import type { ArchivedRequest, ArchivedSeries, ArchivedStudies, Comparison, Folder, ImportReply, NearDrawing, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
 
 export interface FileChoices {
   /** So many are in the file, and one has to be named. */
@@ -76,6 +76,26 @@ export class Http {
   /** Begins to read; events tell the rest. */
   async open(request: OpenRequest): Promise<void> {
     await this.post("open", JSON.stringify(request));
+  }
+
+  /** Of the archive that the command named; `filter`: name, id, date, modality. */
+  async archivedStudies(filter: Record<string, string>, signal: AbortSignal): Promise<ArchivedStudies> {
+    return (await (await this.request(`archive/studies?${new URLSearchParams(filter)}`, { signal })).json()) as ArchivedStudies;
+  }
+
+  async archivedSeries(study: string, signal: AbortSignal): Promise<ArchivedSeries[]> {
+    const reply = await this.request(`archive/series?${new URLSearchParams({ study })}`, { signal });
+    return ((await reply.json()) as { series: ArchivedSeries[] }).series;
+  }
+
+  /** A JPEG of the middle slice of a series. */
+  async archivedPicture(study: string, series: string, signal: AbortSignal): Promise<Blob> {
+    return (await this.request(`archive/picture?${new URLSearchParams({ study, series })}`, { signal })).blob();
+  }
+
+  /** Begins to fetch and to read; events tell the rest. */
+  async openArchived(request: ArchivedRequest): Promise<void> {
+    await this.post("archive/open", JSON.stringify(request));
   }
 
   /** Gives up what is being read. */

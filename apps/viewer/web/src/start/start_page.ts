@@ -4,6 +4,7 @@ import type { Failed, OpeningState, OpenRequest, RecentProject, Start } from "..
 import type { ConnectionState } from "../net/socket";
 import { button, buttonPiece, el } from "../dom/dom";
 import { piece, render, type Piece } from "../dom/pieces";
+import { ArchiveView } from "./archive_view";
 import { FolderView } from "./folder_view";
 import { Problem } from "./problem";
 
@@ -15,6 +16,7 @@ export class StartPage {
   private readonly version = el("span", { class: "fine" });
   private readonly problem: Problem;
   private readonly recent = el("ul", { class: "start-list" });
+  private readonly archive: ArchiveView;
   private readonly folders: FolderView;
   private readonly opening = el("section", { class: "opening", "aria-label": "Opening", "data-test": "opening", hidden: true });
   private readonly openingTitle = el("h2", {});
@@ -27,6 +29,10 @@ export class StartPage {
   constructor(private readonly http: Http) {
     this.problem = new Problem("start-problem", http);
     this.folders = new FolderView(http, { open: (request) => void this.open(request), problem: (sentence) => this.problem.set(sentence) });
+    this.archive = new ArchiveView(http, {
+      open: (request) => void this.attempt(() => this.http.openArchived(request)),
+      problem: (sentence) => this.problem.set(sentence),
+    });
     const cancel = button({
       label: "Cancel",
       title: "Do not open it",
@@ -49,6 +55,7 @@ export class StartPage {
         "div",
         { class: "start-columns" },
         el("section", { class: "start-recent", "aria-label": "Recent projects" }, el("h2", {}, "Go on with"), this.recent),
+        this.archive.element,
         this.folders.element,
       ),
       this.opening,
@@ -66,10 +73,12 @@ export class StartPage {
     if (!this.element.open) this.element.showModal();
     (this.recent.querySelector("button") ?? this.folders.path).focus();
     this.folders.start(start.places, start.folder);
+    this.archive.start(start.archive);
   }
 
   hide(): void {
     this.folders.stop();
+    this.archive.stop();
     this.element.close();
   }
 
@@ -155,6 +164,7 @@ export class StartPage {
 }
 
 const STAGES: Record<string, string> = {
+  fetch: "Fetching from the archive",
   "read headers": "Looking at the files",
   "read slices": "Reading slices",
   "read voxels": "Reading",

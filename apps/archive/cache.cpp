@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "archive/cache.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+#include "archive/fetch.h"
+#include "kontur/base/error.h"
+
+namespace kontur::archive {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path cache_folder() {
+    const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+    fs::path folder;
+    if (cache && fs::path(cache).is_absolute()) folder = cache;
+    else if (home && fs::path(home).is_absolute()) folder = fs::path(home) / ".cache";
+    else throw Error(ErrorKind::io, "neither XDG_CACHE_HOME nor HOME says where images of an archive may be kept");
+    folder /= "kontur/archive";
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (!failure) fs::permissions(folder, fs::perms::owner_all, failure);
+    if (failure) throw Error(ErrorKind::io, fmt::format("cannot make {}: {}", folder.string(), failure.message()));
+    return folder;
+}
+
+fs::path study_folder(const Address& address) {
+    std::string host = address.host();
+    std::replace(host.begin(), host.end(), ':', '_');
+    return cache_folder() / host / address.study_uid;
+}
+
+fs::path path_of(const fs::path& folder) {
+    const std::vector<fs::path> files{fs::directory_iterator(folder), {}};
+    return files.size() == 1 ? files.front() : folder;
+}
+
+}  // namespace
+
+fs::path fetch_to_cache(Http& http, const Address& series, const Work& work) {
+    const fs::path folder = study_folder(series) / series.series_uid;
+    FetchedSeries progress;
+    try {
+        fetch_series(http, series, folder, progress, work);
+    } catch (const Error& error) {
+        if (progress.arrived == 0) throw;
+        throw Error(error.kind(), fmt::format("{}; {} of {} objects are kept, and the same again goes on from there",
+                                              error.what(), progress.arrived, progress.objects));
+    }
+    return path_of(folder);
+}
+
+void fetch_drawings_to_cache(Http& http, const std::vector<Series>& all, const Address& study, const Work& work) {
+    for (const Series& one : all)
+        if (one.modality == "SEG" || one.modality == "RTSTRUCT")
+            fetch_to_cache(http, {study.service, study.study_uid, one.uid, ""}, work);
+}
+
+fs::path fetch_object_to_cache(Http& http, const Address& instance, const Work& work) {
+    const fs::path file = study_folder(instance) / (instance.series_uid + ".objects") / (instance.instance_uid + ".dcm");
+    fetch_instance(http, instance, file, work);
+    return file;
+}
+
+}  // namespace kontur::archive

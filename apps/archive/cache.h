@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "archive/query.h"
+
+// What comes from archives stays on the disk: a project refers to its image, and nothing comes twice. It lies in
+// $XDG_CACHE_HOME/kontur/archive (or ~/.cache), HOST/STUDY/SERIES/OBJECT.dcm, which nobody else may look into.
+
+namespace kontur::archive {
+
+/// A whole series: its folder, or of a series of one object that file. Throws as `fetch_series`; where something came and is
+/// kept, the sentence says so.
+std::filesystem::path fetch_to_cache(Http& http, const Address& series, const Work& work);
+
+/// Those series that hold what was drawn, into folders beside the images, where `kontur open` looks for them.
+void fetch_drawings_to_cache(Http& http, const std::vector<Series>& all, const Address& study, const Work& work);
+
+/// One object. Throws as `fetch_instance`.
+std::filesystem::path fetch_object_to_cache(Http& http, const Address& instance, const Work& work);
+
+}  // namespace kontur::archive

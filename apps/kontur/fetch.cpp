@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "archive/fetch.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "archive/query.h"
+#include "commands.h"
+#include "kontur/base/counted.h"
+#include "kontur/base/error.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+using archive::Address;
+
+void fetch_one(archive::Http& http, const Address& series, const fs::path& folder, Console& console) {
+    archive::FetchedSeries progress;
+    const auto how_far = [&] {
+        return fmt::format("{} of {} objects are in {}, and the same command goes on from there", progress.arrived,
+                           progress.objects, archive::part_folder(folder).string());
+    };
+    try {
+        archive::fetch_series(http, series, folder, progress, console.work());
+    } catch (const Error& error) {
+        if (progress.arrived == 0) throw;
+        if (error.kind() == ErrorKind::cancelled) throw EndedEarly("interrupted; " + how_far(), exit_code(error.kind()));
+        throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_far()));
+    }
+    console.print(fmt::format("{}: {}\n", folder.string(), counted(progress.objects, "object")));
+}
+
+/// Each series into a folder of its own.
+void fetch_study(archive::Http& http, const Address& study, const FetchCommand& command, Console& console) {
+    std::vector<archive::Series> all = archive::find_series(http, study.study_uid, console.work());
+    if (!command.modality.empty())
+        std::erase_if(all, [&](const archive::Series& one) { return one.modality != command.modality; });
+    if (all.empty())
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} has no series of --modality {}", study.text(), command.modality));
+    for (const archive::Series& one : all)
+        fetch_one(http, {study.service, study.study_uid, one.uid, ""}, command.output / one.uid, console);
+}
+
+}  // namespace
+
+void run(const FetchCommand& command, Console& console) {
+    const Address address = archive::parse_address(command.address);
+    if (address.study_uid.empty())
+        throw Error(ErrorKind::invalid_input, fmt::format("{0} names no study; kontur find {0} lists them", address.text()));
+    if (!command.modality.empty() && !address.series_uid.empty())
+        throw Error(ErrorKind::invalid_input, "--modality chooses series of a study; the address names one already");
+    archive::Http http(address, access_of(command.access));
+    if (!address.instance_uid.empty()) {
+        archive::fetch_instance(http, address, command.output, console.work());
+        return console.print(command.output.string() + "\n");
+    }
+    if (address.series_uid.empty()) fetch_study(http, address, command, console);
+    else fetch_one(http, address, command.output, console);
+}
+
+}  // namespace kontur::app

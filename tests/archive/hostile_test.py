@@ -1,0 +1,401 @@
+# SPDX-License-Identifier: Apache-2.0
+"""find, fetch, send and segment against an archive that misbehaves: one sentence, a documented exit code, nothing half on the disk."""
+import json
+import signal
+import subprocess
+import time
+
+import pydicom
+import pytest
+from support import BORDER, JSON, KONTUR, Archive, certificate, context_of, kontur, make_series, running
+
+INPUT, CORRUPT, IO, TOO_LARGE, STOPPED = 65, 66, 74, 77, 130
+PARTS = f'multipart/related; type="application/dicom"; boundary={BORDER}'
+
+
+def is_series(handler, path):
+    return handler.command == "GET" and "/series/" in path and not path.endswith("/instances")
+
+
+def is_series_or_object(handler, path):
+    return is_series(handler, path) and not path.endswith("/series")
+
+
+class Hostile(Archive):
+    """Each do_FAULT answers in place of the archive, or lets it answer."""
+
+    def status(self, handler, status, **headers):
+        self.reply(handler, status, "text/html", b"<p>secret-of-the-server</p>", **headers)
+        return True
+
+    def do_401(self, handler, path):
+        return self.status(handler, 401)
+
+    def do_403(self, handler, path):
+        return self.status(handler, 403)
+
+    def do_404(self, handler, path):
+        return self.status(handler, 404)
+
+    def do_500(self, handler, path):
+        return self.status(handler, 500)
+
+    def do_409(self, handler, path):
+        return handler.command == "POST" and self.status(handler, 409)
+
+    def do_413(self, handler, path):
+        return handler.command == "POST" and self.status(handler, 413)
+
+    def do_failed(self, handler, path):
+        if handler.command == "POST":
+            uid = {"00081155": {"vr": "UI", "Value": [self.sent]}, "00081197": {"vr": "US", "Value": [0x0122]}}
+            self.reply(handler, 409, JSON, json.dumps({"00081198": {"vr": "SQ", "Value": [uid]}}).encode())
+            return True
+
+    def do_changed(self, handler, path):
+        if handler.command == "POST":
+            uid = {"00081155": {"vr": "UI", "Value": [self.sent]}, "00081196": {"vr": "US", "Value": [0xB000]}}
+            self.reply(handler, 202, JSON, json.dumps({"00081199": {"vr": "SQ", "Value": [uid]}}).encode())
+            return True
+
+    def do_redirect(self, handler, path):
+        return self.status(handler, 302, Location=self.elsewhere + "/dicom-web" + path + "?token=secret-of-the-server")
+
+    def do_redirect_here(self, handler, path):
+        if "/moved" not in handler.path:
+            return self.status(handler, 301, Location=handler.path.replace("/dicom-web", "/dicom-web/moved"))
+
+    def do_redirect_for_ever(self, handler, path):
+        return self.status(handler, 301, Location=handler.path)
+
+    def do_early(self, handler, path):
+        if is_series_or_object(handler, path):
+            body = self.parts(self.objects.values())
+            self.reply(handler, 200, PARTS, body[: len(body) // 2], length=len(body))
+            handler.close_connection = True
+            return True
+
+    def do_early_without_length(self, handler, path):
+        if is_series_or_object(handler, path):
+            handler.send_response(200)
+            handler.send_header("Content-Type", PARTS)
+            handler.send_header("Connection", "close")
+            handler.end_headers()
+            body = self.parts(self.objects.values())
+            handler.wfile.write(body[: len(body) // 2])
+            handler.close_connection = True
+            return True
+
+    def do_wrong_border(self, handler, path):
+        if is_series_or_object(handler, path):
+            self.reply(handler, 200, PARTS, self.parts(self.objects.values(), "another"))
+            return True
+
+    def do_no_border(self, handler, path):
+        if is_series_or_object(handler, path):
+            self.reply(handler, 200, "multipart/related", self.parts(self.objects.values()))
+            return True
+
+    def do_html(self, handler, path):
+        self.reply(handler, 200, "text/html", b"<p>log in first</p>")
+        return True
+
+    def do_no_json(self, handler, path):
+        self.reply(handler, 200, JSON, b'[{"0020000D": ')
+        return True
+
+    def do_no_dicom(self, handler, path):
+        if is_series_or_object(handler, path):
+            self.reply(handler, 200, PARTS, self.parts([b"no DICOM"] * len(self.objects)))
+            return True
+
+    def do_twice(self, handler, path):
+        if is_series_or_object(handler, path):
+            self.reply(handler, 200, PARTS, self.parts([next(iter(self.objects.values()))] * len(self.objects)))
+            return True
+
+    def do_fewer(self, handler, path):
+        if is_series_or_object(handler, path):
+            self.reply(handler, 200, PARTS, self.parts(list(self.objects.values())[:5]))
+            return True
+
+    def for_ever(self, handler, kind, piece, pause):
+        handler.send_response(200)
+        handler.send_header("Content-Type", kind)
+        handler.send_header("Connection", "close")
+        handler.end_headers()
+        handler.close_connection = True
+        try:
+            while True:
+                handler.wfile.write(piece)
+                time.sleep(pause)
+        except OSError:
+            return True
+
+    def do_endless_json(self, handler, path):
+        return self.for_ever(handler, JSON, b" " * 1_000_000, 0)
+
+    def do_endless_parts(self, handler, path):
+        return is_series_or_object(handler, path) and self.for_ever(handler, PARTS, self.parts(self.objects.values())[: -len(BORDER) - 6], 0)
+
+    def do_dripping(self, handler, path):
+        return is_series_or_object(handler, path) and self.for_ever(handler, PARTS, b"-", 0.2)
+
+    def do_silent(self, handler, path):
+        time.sleep(30)
+        return True
+
+    def do_slow(self, handler, path):
+        """Three of nine, then next to nothing."""
+        if is_series_or_object(handler, path):
+            body = self.parts(list(self.objects.values())[:3])
+            self.reply(handler, 200, PARTS, body[: -len("--\r\n")], length=10 * len(body))
+            time.sleep(30)
+            return True
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    return make_series(tmp_path_factory.mktemp("series"))
+
+
+@pytest.fixture
+def archive(files):
+    with running(Hostile(files)) as server:
+        yield server
+
+
+def one_sentence(result, code, *words):
+    """The program ended with this code and one sentence that has these words, and that gives no secret away."""
+    lines = result.stderr.splitlines()
+    assert result.returncode == code and lines and lines[-1].startswith("kontur: error: "), result
+    for word in words:
+        assert word in lines[-1], (word, lines[-1])
+    assert "secret" not in result.stdout + result.stderr, result
+    return lines[-1]
+
+
+def made_file(tmp_path, files):
+    """A new object of the archive's study."""
+    dataset = pydicom.dcmread(files[0])
+    dataset.SOPInstanceUID = dataset.file_meta.MediaStorageSOPInstanceUID = pydicom.uid.generate_uid()
+    dataset.SeriesInstanceUID = pydicom.uid.generate_uid()
+    dataset.save_as(tmp_path / "new.dcm")
+    return tmp_path / "new.dcm", str(dataset.SOPInstanceUID)
+
+
+@pytest.mark.parametrize("counts", [True, False])
+def test_without_a_fault_a_series_comes_byte_for_byte(tmp_path, archive, counts):
+    archive.counts = counts
+    result = kontur("fetch", archive.series_address, "-o", tmp_path / "out")
+    assert (result.returncode, result.stderr) == (0, ""), result
+    arrived = {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()}
+    assert arrived == {uid + ".dcm": data for uid, data in archive.objects.items()} and len(arrived) == 9
+    pages = sum(path.endswith("/instances") for _, path, _ in archive.requests)
+    assert pages == (0 if counts else 4), "of four each, until one is empty, where the archive does not say how many objects there are"
+    before = len(archive.requests)
+    assert kontur("fetch", archive.series_address, "-o", tmp_path / "out").returncode == 0
+    assert all(path.endswith("/instances") for _, path, _ in archive.requests[before:]), "what is whole is not fetched again"
+
+
+FAULTS = [
+    ("401", IO, "--credentials"),
+    ("403", IO, "does not let this user"),
+    ("404", INPUT, "does not have"),
+    ("500", IO, "500"),
+    ("redirect", IO, "leads on to http://127.0.0.1:"),
+    ("redirect-for-ever", IO, "more than 5 times"),
+    ("early", IO, "ended early"),
+    ("early-without-length", IO, "ended early"),
+    ("wrong-border", CORRUPT, "border"),
+    ("no-border", CORRUPT, "names no border"),
+    ("html", CORRUPT, "text/html"),
+    ("no-json", CORRUPT, "no JSON"),
+    ("no-dicom", CORRUPT, "no DICOM file"),
+    ("twice", CORRUPT, "sent before"),
+    ("fewer", IO, "5 of the 9"),
+    ("endless-json", TOO_LARGE, "67108864 bytes"),
+    ("endless-parts", CORRUPT, "sent before"),
+    ("dripping", IO, "--give-up-s"),
+    ("silent", IO, "--give-up-s"),
+    ("slow", IO, "--give-up-s"),
+]
+
+
+@pytest.mark.parametrize(("fault", "code", "words"), FAULTS)
+def test_each_fault_is_one_sentence_and_leaves_nothing_half(tmp_path, archive, fault, code, words):
+    with running(Archive()) as other:
+        archive.elsewhere, archive.fault = f"http://127.0.0.1:{other.port}", fault
+        one_sentence(kontur("fetch", archive.series_address, "-o", tmp_path / "out", "--give-up-s", 2), code, words)
+        assert other.requests == [], "another host is never asked"
+    assert not (tmp_path / "out").exists()
+    for path in (tmp_path / "out.part").glob("*"):
+        assert path.read_bytes() == archive.objects[path.stem], "what is there is whole"
+
+
+@pytest.mark.parametrize("fault", ["401", "404", "early", "wrong-border", "slow", "html"])
+def test_segment_makes_nothing_of_a_series_that_does_not_come(tmp_path, archive, fault):
+    archive.fault = fault
+    (tmp_path / "contours.json").write_text('{"frame": "LPS mm", "planes": []}')
+    result = kontur("segment", tmp_path / "contours.json", "--image", archive.series_address, "-o", tmp_path / "mask.nii.gz", "--give-up-s", 2, cache=tmp_path / "cache")
+    assert result.returncode in (INPUT, CORRUPT, IO), result
+    assert "Traceback" not in result.stderr and not (tmp_path / "mask.nii.gz").exists()
+    assert [path for path in (tmp_path / "cache").rglob(archive.series)] == []
+
+
+def test_an_early_end_goes_on_where_it_was(tmp_path, archive):
+    archive.fault = "early"
+    sentence = one_sentence(kontur("fetch", archive.series_address, "-o", tmp_path / "out"), IO, "goes on from there", "out.part")
+    kept = len(list((tmp_path / "out.part").iterdir()))
+    assert 0 < kept < 9 and f"{kept} of 9 objects" in sentence
+    archive.fault, archive.requests = "", []
+    assert kontur("fetch", archive.series_address, "-o", tmp_path / "out").returncode == 0
+    assert sum("/instances/" in path for _, path, _ in archive.requests) == 9 - kept, "only what was missing is asked for"
+    assert {path.stem: path.read_bytes() for path in (tmp_path / "out").iterdir()} == archive.objects
+    assert not (tmp_path / "out.part").exists()
+
+
+def test_ctrl_c_stops_at_once_and_keeps_what_came(tmp_path, archive):
+    archive.fault = "slow"
+    process = subprocess.Popen([KONTUR, "fetch", archive.series_address, "-o", tmp_path / "out"], stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 20
+    while len(list((tmp_path / "out.part").glob("*.dcm"))) < 3:
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    start = time.monotonic()
+    _, words = process.communicate(timeout=20)
+    assert time.monotonic() - start < 3
+    assert process.returncode == STOPPED and "interrupted; 3 of 9 objects" in words and not (tmp_path / "out").exists()
+
+
+def test_a_folder_that_lacks_some_is_not_touched(tmp_path, archive):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "mine.txt").write_text("mine")
+    one_sentence(kontur("fetch", archive.series_address, "-o", tmp_path / "out"), INPUT, "name a new folder")
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["mine.txt"]
+
+
+def test_a_redirect_within_the_archive_is_followed(tmp_path, archive):
+    archive.fault = "redirect-here"
+    assert kontur("fetch", archive.series_address, "-o", tmp_path / "out").returncode == 0
+    assert len(list((tmp_path / "out").iterdir())) == 9
+
+
+STOW_FAULTS = [("401", IO, "--credentials"), ("403", IO, "does not let"), ("409", IO, "409"), ("413", TOO_LARGE, "new.dcm"), ("redirect", IO, "leads on"), ("failed", IO, "no objects of this class (0122)")]
+
+
+@pytest.mark.parametrize(("fault", "code", "words"), STOW_FAULTS)
+def test_what_is_not_stored_is_said_and_kept(tmp_path, archive, files, fault, code, words):
+    file, archive.sent = made_file(tmp_path, files)
+    before = file.read_bytes()
+    with running(Archive()) as other:
+        archive.elsewhere, archive.fault = f"http://127.0.0.1:{other.port}", fault
+        one_sentence(kontur("send", file, "--archive", archive.address), code, words)
+        assert other.requests == []
+    assert archive.stored == {} and file.read_bytes() == before
+
+
+def test_objects_are_stored_once_and_never_over_others(tmp_path, archive, files):
+    file, uid = made_file(tmp_path, files)
+    first = kontur("send", file, files[3], "--archive", archive.address)
+    assert first.returncode == 0 and "new.dcm: stored in" in first.stdout and "was there already" in first.stdout
+    assert archive.stored == {uid: file.read_bytes()}
+    assert kontur("send", file, "--archive", archive.address).stdout.count("was there already") == 1
+    assert sum(method == "POST" for method, _, _ in archive.requests) == 1
+
+
+def test_a_doubt_of_the_archive_is_a_warning(tmp_path, archive, files):
+    file, archive.sent = made_file(tmp_path, files)
+    archive.fault = "changed"
+    result = kontur("send", file, "--archive", archive.address)
+    assert result.returncode == 0 and "kontur: warning: " in result.stderr and "elements were changed (B000)" in result.stderr
+
+
+def test_of_several_objects_each_is_told_by_itself(tmp_path, archive, files):
+    file, archive.sent = made_file(tmp_path, files)
+    archive.fault = "failed"
+    result = kontur("send", files[0], file, "--archive", archive.address)
+    one_sentence(result, IO, "1 of 2 objects were not stored")
+    assert "was there already" in result.stdout and "new.dcm: refused" in result.stderr
+
+
+def test_a_study_that_the_archive_does_not_have_gets_nothing(tmp_path, archive, files):
+    dataset = pydicom.dcmread(files[0])
+    dataset.StudyInstanceUID = "1.2.3"
+    dataset.SOPInstanceUID = dataset.file_meta.MediaStorageSOPInstanceUID = pydicom.uid.generate_uid()
+    dataset.save_as(tmp_path / "lost.dcm")
+    one_sentence(kontur("send", tmp_path / "lost.dcm", "--archive", archive.address), INPUT, "does not have the study 1.2.3")
+    (tmp_path / "text.dcm").write_text("text")
+    one_sentence(kontur("send", files[0], tmp_path / "text.dcm", "--archive", archive.address), CORRUPT, "text.dcm")
+    assert archive.stored == {}
+
+
+def test_credentials_come_from_a_file_or_the_environment_and_are_nowhere_else(tmp_path, archive, files):
+    file = tmp_path / "who"
+    file.write_text("me:top-secret\n")
+    one_sentence(kontur("find", archive.address, "--credentials", file), INPUT, "chmod 600")
+    file.chmod(0o600)
+    assert kontur("find", archive.address, "--credentials", file).returncode == 0
+    assert archive.requests[-1][2]["Authorization"] == "Basic bWU6dG9wLXNlY3JldA=="
+    assert kontur("find", archive.address, KONTUR_ARCHIVE_CREDENTIALS="Bearer top-secret").returncode == 0
+    assert archive.requests[-1][2]["Authorization"] == "Bearer top-secret"
+    archive.fault = "401"
+    one_sentence(kontur("find", archive.address, "--credentials", file), IO, "does not accept the user or token of --credentials")
+    one_sentence(kontur("find", archive.address, KONTUR_ARCHIVE_CREDENTIALS="me:top-secret"), IO, "KONTUR_ARCHIVE_CREDENTIALS")
+    one_sentence(kontur("find", "http://archive.invalid/dicom-web", KONTUR_ARCHIVE_CREDENTIALS="me:top-secret"), INPUT, "https://")
+    one_sentence(kontur("find", "https://me:top-secret@archive.invalid/x"), INPUT, "--credentials")
+    archive.fault = ""
+    contours = tmp_path / "contours.json"
+    convert = kontur("convert", archive.series_address, tmp_path / "ct.nrrd", "--credentials", file, cache=tmp_path / "cache")
+    assert convert.returncode == 0, (convert, contours)
+    for path in tmp_path.rglob("*"):
+        if path.is_file() and path != file:
+            assert b"top-secret" not in path.read_bytes() and b"dG9wLXNlY3JldA" not in path.read_bytes(), path
+    assert "secret" not in convert.stdout + convert.stderr
+    assert (tmp_path / "cache/kontur/archive").stat().st_mode & 0o077 == 0, "nobody else may look into it"
+
+
+def test_options_for_archives_need_an_address(tmp_path, files):
+    (tmp_path / "who").write_text("me:word")
+    (tmp_path / "who").chmod(0o600)
+    one_sentence(kontur("convert", files[0].parent, tmp_path / "ct.nrrd", "--credentials", tmp_path / "who"), INPUT, "https://")
+
+
+def test_nobody_there(tmp_path):
+    one_sentence(kontur("find", "http://127.0.0.1:9/dicom-web"), IO, "cannot reach 127.0.0.1:9")
+    one_sentence(kontur("find", "https://archive.invalid/dicom-web"), IO, "cannot reach archive.invalid")
+
+
+def test_certificates_are_verified(tmp_path, files):
+    good = certificate(tmp_path, "good", "-days", "2")
+    with running(Archive(files, context_of(good))) as archive:
+        one_sentence(kontur("find", archive.address), IO, "is not trusted", "--ca")
+        assert archive.requests == []
+        assert kontur("find", archive.address, "--ca", good[0]).returncode == 0
+        other = certificate(tmp_path, "other", "-days", "2")
+        one_sentence(kontur("find", archive.address, "--ca", other[0]), IO, "is not trusted")
+        one_sentence(kontur("find", archive.address.replace("127.0.0.1", "localhost"), "--ca", good[0]), IO, "is not trusted")
+        one_sentence(kontur("find", archive.address, "--ca", tmp_path / "good.key"), IO, "holds no certificate")
+        one_sentence(kontur("find", archive.address, "--ca", tmp_path / "nothing"), IO, "--ca")
+
+
+def test_a_certificate_that_is_out_of_date_is_refused(tmp_path, files):
+    old = expired_certificate(tmp_path)
+    with running(Archive(files, context_of(old))) as archive:
+        one_sentence(kontur("fetch", archive.series_address, "-o", tmp_path / "out", "--ca", old[0]), IO, "certificate has expired")
+        assert archive.requests == [] and not (tmp_path / "out").exists()
+
+
+def expired_certificate(folder):
+    """Of the year 2020, by openssl's small authority, which can say from when and until when."""
+    (folder / "index.txt").write_text("")
+    (folder / "serial").write_text("01\n")
+    (folder / "ca.cnf").write_text(
+        f"[ca]\ndefault_ca=d\n[d]\ndir={folder}\ndatabase={folder}/index.txt\nserial={folder}/serial\nnew_certs_dir={folder}\ndefault_md=sha256\npolicy=p\n"
+        "x509_extensions=x\n[p]\ncommonName=supplied\n[x]\nsubjectAltName=IP:127.0.0.1\nbasicConstraints=CA:true\n"
+    )
+    run = lambda *words: subprocess.run(["openssl", *words], check=True, capture_output=True, cwd=folder)  # noqa: E731
+    run("req", "-newkey", "rsa:2048", "-nodes", "-subj", "/CN=127.0.0.1", "-keyout", "old.key", "-out", "old.csr")
+    run("ca", "-batch", "-selfsign", "-config", "ca.cnf", "-keyfile", "old.key", "-in", "old.csr", "-out", "old.pem", "-startdate", "20200101000000Z", "-enddate", "20200201000000Z")
+    return folder / "old.pem", folder / "old.key"

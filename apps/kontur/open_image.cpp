@@ -10,6 +10,7 @@
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/dicom_suv.h"
 #include "kontur/io/image.h"
+#include "kontur/io/image_frames.h"
 #include "kontur/io/images/frame_choice_error.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/phantom/volumes.h"
@@ -104,6 +105,15 @@ int count_times(const ImageInput& input, const viewer::OpenedImage& opened) {
     return 1;
 }
 
+/// Seconds from one frame to the next, where the file says so.
+std::optional<double> step_s_of(const ImageInput& input) {
+    try {
+        return read_image_frames(input.path, input.options).step_s;
+    } catch (const Error&) {
+        return std::nullopt;  // of formats that do not say
+    }
+}
+
 /// The other volumes are read when somebody looks at them.
 viewer::Times times_of(const ImageInput& input, const viewer::OpenedImage& opened) {
     const bool is_series = opened.series && input.options.dicom.volume;
@@ -118,7 +128,8 @@ viewer::Times times_of(const ImageInput& input, const viewer::OpenedImage& opene
         turn_into_suv(image, messages);
         return image.image;
     };
-    return {count_times(input, opened), static_cast<int>(own), read};
+    const int count = count_times(input, opened);
+    return {count, static_cast<int>(own), read, is_series || count < 2 ? std::nullopt : step_s_of(input)};
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ viewer::ImportContent first_contours(const OpenCommand& command, const Words& wo
     } else {
         ReadContours read = read_contours(words.contours, command.read);
         try {
-            for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
+            for (std::string& note : check_and_tidy_moments(read.contours)) read.notes.push_back(std::move(note));
         } catch (const Error& error) {
             throw error.with_context(words.contours.string());
         }

@@ -29,7 +29,7 @@
 #include "kontur/view/picture.h"
 #include "outputs.h"
 #include "own_grid.h"
-#include "segment_moving.h"
+#include "segment_frames.h"
 #include "segment_rois.h"
 
 namespace kontur::app {

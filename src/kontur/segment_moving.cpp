@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "kontur/base/counted.h"
@@ -13,6 +12,7 @@
 #include "kontur/base/stopwatch.h"
 #include "kontur/moving/carried_sections.h"
 #include "kontur/moving/moments.h"
+#include "kontur/shape/provenance.h"
 
 namespace kontur {
 namespace {
@@ -67,67 +67,6 @@ std::optional<MovingFunction> between_whole(const Moments& moments, const DrawnM
     return MovingFunction(TimeCourse(std::move(times), moments.course.cycle()), std::move(functions));
 }
 
-/// Masks at all times. What is inside at two moments, or outside, stays so between them; so f is computed where the moments'
-/// masks differ, and only there.
-class MaskCourse {
-public:
-    MaskCourse(const MovingFunction& function, const std::vector<DrawnMoment>& moments, const Work& work)
-        : course_(function.course()), moments_(moments) {
-        const Mask& first = moments.front().segmentation.mask;
-        std::vector<Vec3> places;
-        for (std::size_t v = 0; v < first.values.size(); ++v) {
-            const auto differs = [&](const DrawnMoment& m) { return m.segmentation.mask.values[v] != first.values[v]; };
-            if (std::none_of(moments.begin(), moments.end(), differs)) continue;
-            voxels_.push_back(v);
-            const Index3 at = index_at(v, first.grid.size);
-            places.push_back(first.grid.center_mm(at.i, at.j, at.k));
-        }
-        std::vector<double> values(places.size());
-        values_.resize(places.size() * moments.size());
-        for (std::size_t k = 0; k < moments.size(); ++k) {
-            work.report("values between moments", static_cast<double>(k) / static_cast<double>(moments.size()));
-            function.functions()[k].values(places, values, work.untold());
-            for (std::size_t n = 0; n < places.size(); ++n) {
-                // A sheet that no contour touches is not in the mask, whatever f says.
-                const bool is_inside = moments[k].segmentation.mask.values[voxels_[n]] != 0;
-                if (is_inside != (values[n] > 0)) values[n] = is_inside ? std::numeric_limits<double>::min() : 0.0;
-                values_[n * moments.size() + k] = values[n];
-            }
-        }
-    }
-
-    Mask at(double time) const {
-        const TimeCourse::Place place = course_.place_of(time);
-        Mask mask = moments_[place.before].segmentation.mask;
-        if (place.before == place.after) return mask;
-        for (std::size_t n = 0; n < voxels_.size(); ++n) {
-            const std::span<const double> values(&values_[n * moments_.size()], moments_.size());
-            if ((values[place.before] > 0) != (values[place.after] > 0))
-                mask.values[voxels_[n]] = course_.value(place, values) > 0;
-        }
-        return mask;
-    }
-
-private:
-    const TimeCourse& course_;
-    const std::vector<DrawnMoment>& moments_;
-    std::vector<std::size_t> voxels_;  ///< in which moments differ
-    std::vector<double> values_;       ///< of each of them f at all moments
-};
-
-VolumeCurve volumes_of(const std::vector<Mask>& masks) {
-    VolumeCurve curve;
-    for (const Mask& mask : masks) {
-        const auto voxels = std::count_if(mask.values.begin(), mask.values.end(), [](auto v) { return v != 0; });
-        curve.volumes_ml.push_back(static_cast<double>(voxels) * mask.grid.voxel_volume_mm3() / 1000);
-    }
-    const auto [least, most] = std::minmax_element(curve.volumes_ml.begin(), curve.volumes_ml.end());
-    curve.smallest = static_cast<std::size_t>(least - curve.volumes_ml.begin());
-    curve.largest = static_cast<std::size_t>(std::find(curve.volumes_ml.begin(), curve.volumes_ml.end(), *most) -
-                                             curve.volumes_ml.begin());
-    return curve;
-}
-
 std::string moment_name(const Moments& moments, double time) {
     return moments.in_seconds ? fmt::format("at {:g} s", time) : fmt::format("frame {:g}", time);
 }
@@ -151,58 +90,105 @@ std::vector<std::string> warnings_of(const Moments& moments, const std::vector<D
     return warnings;
 }
 
+/// The masks of a moving object at all times.
+std::vector<Mask> masks_at(std::span<const double> times, const MovingFit& fit, const Work& work) {
+    std::vector<Mask> of_moments;
+    for (const DrawnMoment& moment : fit.moments) of_moments.push_back(moment.segmentation.mask);
+    const MaskCourse course(fit.function, std::move(of_moments), work);
+    std::vector<Mask> masks(times.size());
+    parallel_for(static_cast<std::int64_t>(times.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
+        for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+            masks[n] = course.at(times[n]);
+    });
+    return masks;
+}
+
 }  // namespace
 
-MovingSegmentation segment_moving(const ContourSet& drawn_contours, const Grid& grid, std::span<const double> times,
-                                  const SegmentOptions& options, const Work& work) {
+VolumeCurve volume_curve(std::vector<double> volumes_ml) {
+    VolumeCurve curve;
+    curve.volumes_ml = std::move(volumes_ml);
+    const auto [least, most] = std::minmax_element(curve.volumes_ml.begin(), curve.volumes_ml.end());
+    curve.smallest = static_cast<std::size_t>(least - curve.volumes_ml.begin());
+    curve.largest = static_cast<std::size_t>(std::find(curve.volumes_ml.begin(), curve.volumes_ml.end(), *most) -
+                                             curve.volumes_ml.begin());
+    return curve;
+}
+
+std::string volumes_csv(const std::vector<double>& times, const VolumeCurve& curve, const std::vector<DrawnMoment>& moments,
+                        const std::optional<double>& step_s) {
+    std::string text = "frame,time_s,volume_ml,contours,phase\n";
+    for (std::size_t n = 0; n < times.size(); ++n) {
+        std::size_t contours = 0;
+        for (const DrawnMoment& moment : moments) contours += moment.time == times[n] ? moment.contours : 0;
+        const char* phase = n == curve.largest ? "largest" : n == curve.smallest ? "smallest" : "";
+        text +=
+            fmt::format("{},{},{:.3f},{},{}\n", n + 1, step_s ? fmt::format("{:g}", static_cast<double>(n) * *step_s) : "",
+                        curve.volumes_ml[n], contours, phase);
+    }
+    return text;
+}
+
+DrawnMoment MovingFitter::fitted(ContourSet set, const Work& work) const {
+    const std::string digest = contours_sha256(set);
+    for (const DrawnMoment& known : known_)
+        if (contours_sha256(known.set) == digest) return known;
+    DrawnMoment moment;
+    moment.segmentation = segment(set, grid_, options_, work.untold());
+    moment.set = std::move(set);
+    return moment;
+}
+
+MovingFit MovingFitter::fit(const ContourSet& drawn_contours, std::span<const double> times, const Work& work) {
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
     Moments moments = moments_or_rest(drawn_contours);
     check(drawn_contours, moments, times);
     const ContourSet contours = in_order_of_time(drawn_contours, moments);
     DrawnMoments drawn = drawn_moments(contours, moments);
-    SegmentOptions by_contours = options;
-    by_contours.mesh = false;
-
     std::vector<DrawnMoment> made(drawn.sets.size());
-    const auto segment_moment = [&](std::size_t k) {
+    const auto fit_moment = [&](std::size_t k, std::size_t carried) {
         work.report("segment moments", static_cast<double>(k) / static_cast<double>(made.size()));
-        made[k].segmentation = segment(drawn.sets[k], grid, by_contours, work.untold());
+        made[k] = fitted(drawn.sets[k], work);
+        made[k].time = moments.course.times()[k];
+        made[k].carried = carried;
+        made[k].contours = made[k].set.contours.size() - carried;
     };
     for (std::size_t k = 0; k < made.size(); ++k) {
         made[k].time = moments.course.times()[k];
-        made[k].contours = drawn.sets[k].contours.size();
-        if (drawn.is_whole[k]) segment_moment(k);
+        if (drawn.is_whole[k]) fit_moment(k, 0);
     }
     watch.lap("whole moments");
     const std::optional<MovingFunction> whole = between_whole(moments, drawn, made);
     const std::vector<std::vector<Contour>> carried =
-        carried_sections(contours, drawn, whole ? &*whole : nullptr, options.fill_rule, work);
+        carried_sections(contours, drawn, whole ? &*whole : nullptr, options_.fill_rule, work);
     watch.lap("carry sections");
     for (std::size_t k = 0; k < made.size(); ++k) {
         if (drawn.is_whole[k]) continue;
-        made[k].carried = carried[k].size();
         drawn.sets[k].contours.insert(drawn.sets[k].contours.end(), carried[k].begin(), carried[k].end());
-        segment_moment(k);
+        fit_moment(k, carried[k].size());
     }
     watch.lap("other moments");
-
+    known_ = made;
     std::vector<ImplicitFunction> functions;
     for (const DrawnMoment& moment : made) functions.push_back(moment.segmentation.function);
-    MovingSegmentation result{
-        {times.begin(), times.end()}, {}, MovingFunction(moments.course, std::move(functions)), {}, {}, {}, {}};
-    const MaskCourse masks(result.function, made, work);
-    result.masks.resize(times.size());
-    parallel_for(static_cast<std::int64_t>(times.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
-        for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-            result.masks[n] = masks.at(times[n]);
-    });
+    MovingFunction function(moments.course, std::move(functions));
+    std::vector<std::string> warnings = warnings_of(moments, made);
+    return {std::move(function), std::move(made), std::move(warnings), std::move(seconds)};
+}
+
+MovingSegmentation segment_moving(const ContourSet& contours, const Grid& grid, std::span<const double> times,
+                                  const SegmentOptions& options, const Work& work) {
+    SegmentOptions by_contours = options;
+    by_contours.mesh = false;
+    MovingFit fit = MovingFitter(grid, by_contours).fit(contours, times, work);
+    Stopwatch watch(fit.seconds);
+    std::vector<Mask> masks = masks_at(times, fit, work);
     watch.lap("voxelize");
-    result.volumes = volumes_of(result.masks);
-    result.warnings = warnings_of(moments, made);
-    result.moments = std::move(made);
-    result.seconds = std::move(seconds);
-    return result;
+    std::vector<double> volumes;
+    for (const Mask& mask : masks) volumes.push_back(volume_ml(mask));
+    return {{times.begin(), times.end()},     std::move(masks),        std::move(fit.function), std::move(fit.moments),
+            volume_curve(std::move(volumes)), std::move(fit.warnings), std::move(fit.seconds)};
 }
 
 }  // namespace kontur

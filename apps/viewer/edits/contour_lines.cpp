@@ -16,6 +16,7 @@ DrawnContour redrawn(const DrawnContour& contour, const std::vector<SketchPoint>
     result.structure = contour.structure;
     result.visible = contour.visible;
     copy_marks(contour, result);
+    result.time = contour.time;
     return result;
 }
 

@@ -12,7 +12,7 @@ constexpr std::size_t kMostKept = 8;
 
 bool is_same(const State& a, const State& b) {
     return a.structures == b.structures && a.borders == b.borders && a.use_image == b.use_image &&
-           std::ranges::equal(a.contours, b.contours, [](const auto& x, const auto& y) {
+           a.cycle_frames == b.cycle_frames && std::ranges::equal(a.contours, b.contours, [](const auto& x, const auto& y) {
                return x.first == y.first && (x.second == y.second || *x.second == *y.second);
            });
 }
@@ -34,6 +34,19 @@ State only(const State& state, Id structure) {
     return own;
 }
 
+/// Whether it is a structure of the opened time, and of no other.
+bool is_of_opened_time(const State& state, Id structure) {
+    const std::set<int> times = drawn_times(state, structure);
+    return structure_of(state, structure).mask || times.empty() || times == std::set{state.opened_time};
+}
+
+/// Without what was drawn at other times.
+State at_opened_time_alone(const State& state) {
+    State own = state;
+    std::erase_if(own.contours, [&](const auto& item) { return !is_of_opened_time(state, item.second->structure); });
+    return own;
+}
+
 std::size_t bytes_of(const ExportFits::Fits& fits) {
     std::size_t bytes = 0;
     for (const FittedStructure& one : *fits) {
@@ -48,17 +61,54 @@ std::size_t bytes_of(const ExportFits::Fits& fits) {
 
 }  // namespace
 
-ExportFits::Fits ExportFits::all(const State& state, const Work& work) {
+ExportFits::Fits ExportFits::all(const State& state, const Work& work, std::optional<int> time) {
+    const State own = at_opened_time_alone(state);
+    if (own.contours.size() == state.contours.size()) return at_opened_time(state, work);
+    std::vector<FittedStructure> all;
+    if (!drawn_in(own).empty()) all = *at_opened_time(own, work);
+    for (const Id id : drawn_in(state))
+        if (!is_of_opened_time(state, id)) all.push_back(in_time(state, id, time.value_or(state.opened_time), work));
+    std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
+    return std::make_shared<const std::vector<FittedStructure>>(std::move(all));
+}
+
+FittedStructure ExportFits::in_time(const State& state, Id structure, int time, const Work& work) {
+    if (is_moving(state, structure)) return motion(state, structure, work)->at(time);
+    const std::shared_ptr<const Image> image = image_at_(*drawn_times(state, structure).begin());
+    FittedStructure made = fit_structure(only(state, structure), structure, *image, true, work);
+    made.shares_border = false;
+    return made;
+}
+
+std::shared_ptr<const FittedMotion> ExportFits::motion(const State& state, Id structure, const Work& work) {
+    const State own = only(state, structure);
+    {
+        const std::scoped_lock lock(mutex_);
+        if (motion_ && is_same(motion_of_, own)) return motion_;
+    }
+    auto made = std::make_shared<const FittedMotion>(own, structure, image_->grid, times_, work);
+    const std::scoped_lock lock(mutex_);
+    motion_of_ = own;
+    motion_ = made;
+    return made;
+}
+
+ExportFits::Fits ExportFits::at_opened_time(const State& state, const Work& work) {
     const std::set<Id> drawn = drawn_in(state);
     const State asked = drawn.size() == 1 ? only(state, *drawn.begin()) : state;
     return kept(asked, [&] { return fit_structures(asked, *image_, true, work); });
 }
 
-std::shared_ptr<const FittedStructure> ExportFits::one(const State& state, Id structure, const Work& work) {
+std::shared_ptr<const FittedStructure> ExportFits::one(const State& all_of_it, Id structure, const Work& work,
+                                                       std::optional<int> time) {
+    if (!is_of_opened_time(all_of_it, structure))
+        return std::make_shared<const FittedStructure>(
+            in_time(all_of_it, structure, time.value_or(all_of_it.opened_time), work));
+    const State state = at_opened_time_alone(all_of_it);
     const std::set<Id> drawn = drawn_in(state);
     const bool is_alone = drawn.size() == 1 || !drawn.contains(structure);
     if (state.borders.shared && !is_alone) {
-        const Fits fits = all(state, work);
+        const Fits fits = at_opened_time(state, work);
         const auto chosen = std::ranges::find(*fits, structure, [](const FittedStructure& one) { return one.structure.id; });
         return {fits, &*chosen};
     }

@@ -162,7 +162,7 @@ ImportContent read_contours_of(const fs::path& path, const Upload& request) {
     if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path);
     if (path.extension() == ".dcm" && is_dicom_seg(path)) return read_segments_of(path, request);
     ReadContours read = read_contours(path);
-    for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
+    for (std::string& note : check_and_tidy_moments(read.contours)) read.notes.push_back(std::move(note));
     return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid), {}};
 }
 

@@ -18,6 +18,7 @@ struct ProjectImage {
     explicit ProjectImage(OpenedImage opened);
 
     std::shared_ptr<const Image> voxels;
+    std::optional<double> frame_step_s;  ///< from one time to the next, where the file says so
     TimeAxis times;
     std::string title;
     std::string frame_of_reference_uid;

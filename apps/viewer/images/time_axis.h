@@ -5,6 +5,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "kontur/shape/volume.h"
@@ -16,6 +17,7 @@ struct Times {
     int count = 1;
     int own = 0;                                                   ///< the one that was opened
     std::function<std::shared_ptr<const Image>(int time)> read{};  ///< another one; may throw as `read_image`
+    std::optional<double> step_s{};                                ///< from one to the next, where the file says so
 };
 
 /// The volumes of an image in time, read when they are asked for. Those used last are kept. Safe for concurrent use.

@@ -87,9 +87,33 @@ bool counts(const DrawnContour& contour, const Structure& structure) { return co
 ContourSet contour_set(const State& state, Id structure) {
     const Structure& own = structure_of(state, structure);
     ContourSet set = without_contours(own);
-    for (const auto& [id, contour] : state.contours)
-        if (contour->structure == structure && counts(*contour, own)) set.contours.push_back(as_contour(*contour));
+    std::vector<int> times;
+    for (const auto& [id, contour] : state.contours) {
+        if (contour->structure != structure || !counts(*contour, own)) continue;
+        set.contours.push_back(as_contour(*contour));
+        times.push_back(time_of(state, *contour));
+    }
+    if (is_moving(state, structure)) set_frames(set, times, state);
     return set;
+}
+
+int time_of(const State& state, const DrawnContour& contour) { return contour.time.value_or(state.opened_time); }
+
+std::set<int> drawn_times(const State& state, Id structure) {
+    std::set<int> times;
+    for (const auto& [id, contour] : state.contours)
+        if (contour->structure == structure) times.insert(time_of(state, *contour));
+    return times;
+}
+
+bool is_moving(const State& state, Id structure) {
+    const auto own = state.structures.find(structure);
+    return own != state.structures.end() && !own->second.mask && drawn_times(state, structure).size() > 1;
+}
+
+void set_frames(ContourSet& set, const std::vector<int>& times, const State& state) {
+    for (std::size_t n = 0; n < set.contours.size(); ++n) set.contours[n].frame = times[n] + 1;
+    if (state.cycle_frames.value_or(0) > 0) set.cycle_frames = state.cycle_frames;
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,8 @@ struct DrawnContour {
     std::optional<Hand> inside{};            ///< of an open line: where the structure lies; unset: to be found out
     ContourEnd end = ContourEnd::automatic;  ///< of a closed line that is no hole
     double weight = 1;                       ///< how far it is trusted
+    std::optional<int> time{};               ///< of an image of several volumes the one it was drawn in, from 0; unset: the
+                                             ///< one that was opened
 
     friend bool operator==(const DrawnContour&, const DrawnContour&) = default;
 };
@@ -100,7 +103,9 @@ struct State {
     std::map<Id, Structure> structures;
     std::map<Id, std::shared_ptr<const DrawnContour>> contours;
     Borders borders;
-    bool use_image = true;  ///< between the contours, where it helps
+    bool use_image = true;                 ///< between the contours, where it helps
+    std::optional<double> cycle_frames{};  ///< after which motion repeats; 0: never; unset: nobody has said
+    int opened_time = 0;                   ///< of the image's volumes the one that was opened, from 0; not stored
     /// By their hashes: those to be corrected, and those of the history.
     std::map<std::string, std::shared_ptr<const StoredMask>> masks{};
 };
@@ -120,8 +125,18 @@ bool has_content(const State& state, Id structure);
 
 /// Whether a contour is one of what its structure is made of: a hidden correction of a mask is not.
 bool counts(const DrawnContour& contour, const Structure& structure);
-/// The structure's contours as the library takes them, in the order they were made; those that count.
+/// The structure's contours as the library takes them, in the order they were made; those that count. They have their
+/// frames, and the cycle, where they are of several.
 ContourSet contour_set(const State& state, Id structure);
+
+/// The volume in time that the contour belongs to, from 0.
+int time_of(const State& state, const DrawnContour& contour);
+/// Those at which something of the structure was drawn, in order.
+std::set<int> drawn_times(const State& state, Id structure);
+/// Whether the structure was drawn at several times; a mask to be corrected does not move.
+bool is_moving(const State& state, Id structure);
+/// With frames, from 1, of contours in the order of the set, and the cycle.
+void set_frames(ContourSet& set, const std::vector<int>& times, const State& state);
 
 /// Whether the contour is drawn in this plane: parallel to it within a degree, and all of it within half of the thickness.
 bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm);

@@ -149,6 +149,7 @@ json to_json(const DrawnContour& c) {
     if (c.inside) told["inside"] = std::string(name(*c.inside));
     if (c.end != ContourEnd::automatic) told["end"] = std::string(name(c.end));
     if (c.weight != 1) told["weight"] = c.weight;
+    if (c.time) told["time"] = *c.time;
     return told;
 }
 
@@ -341,6 +342,7 @@ DrawnContour contour_from_json(const json& value, const Limits& limits) {
     if (m.has("inside")) c.inside = m.hand("inside");
     if (m.has("end")) c.end = m.end("end");
     if (m.has("weight")) c.weight = m.weight("weight");
+    c.time = m.time();
     if (c.end != ContourEnd::automatic && (!c.closed || c.hole))
         refuse("a contour that is open or a hole says how the structure ends there; only others can");
     if (!c.closed && c.hole) refuse("a contour is open and a hole; only closed contours can be holes");

@@ -101,6 +101,17 @@ std::optional<Id> whole_number(const std::string& text) {
     return number;
 }
 
+/// Of the image, from 0.
+std::optional<int> time_of(const Target& target) {
+    const auto text = target.parameter("time");
+    if (!text) return std::nullopt;
+    constexpr Id kMost = 99'999;
+    const auto time = whole_number(*text);
+    if (!time || *time < 0 || *time > kMost)
+        throw Error(ErrorKind::invalid_input, fmt::format("'time' is not a whole number from 0 to {}", kMost));
+    return static_cast<int>(*time);
+}
+
 HttpReply page_file(const std::string& path) {
     const PageFile* file = find_page_file(path == "/" ? "/index.html" : path);
     if (!file) return not_found();
@@ -236,16 +247,17 @@ HttpReply HttpApi::mesh(const HttpRequest& request) {
     if (other && !far_from) throw Error(ErrorKind::invalid_input, "'far_from' is not a whole number");
     const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
     if (!session) return nothing();
-    if (!target.parameter("coded")) return binary(session->mesh(*id));
+    if (!target.parameter("coded")) return binary(session->mesh(*id, false, {.widths = true, .time = time_of(target)}));
     std::string bytes = session->mesh(
-        *id, true, {target.parameter("widths").has_value(), target.parameter("origins").has_value(), far_from});
+        *id, true,
+        {target.parameter("widths").has_value(), target.parameter("origins").has_value(), far_from, time_of(target)});
     return target.parameter("compressed") ? compressed(bytes) : binary(std::move(bytes));
 }
 
 HttpReply HttpApi::measured(const HttpRequest& request, const StopToken& stop) {
     const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
     if (!session) return nothing();
-    return {200, "application/json", session->statistics(stop), {}};
+    return {200, "application/json", session->statistics(stop, time_of(request.target)), {}};
 }
 
 HttpReply HttpApi::put_image(const HttpRequest& request, const StopToken& stop) {
@@ -264,7 +276,7 @@ HttpReply HttpApi::compared(const HttpRequest& request, const StopToken& stop) {
     const Id first = id("first"), second = id("second");
     const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
     if (!session) return nothing();
-    return {200, "application/json", session->compare(first, second, stop), {}};
+    return {200, "application/json", session->compare(first, second, stop, time_of(request.target)), {}};
 }
 
 HttpReply HttpApi::exported(const HttpRequest& request, const StopToken& stop) {
@@ -277,7 +289,7 @@ HttpReply HttpApi::exported(const HttpRequest& request, const StopToken& stop) {
     const std::string name = target.path.substr(std::string_view("/api/export/").size());
     const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
     if (!session) return nothing();
-    Download download = session->exported(name, structure, stop);
+    Download download = session->exported(name, structure, stop, time_of(target));
     return {200,
             download.content_type,
             std::move(download.bytes),

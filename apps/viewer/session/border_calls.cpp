@@ -75,8 +75,9 @@ std::vector<DrawnContour> carried_with(SessionState& s, const DrawnContour& cont
         const bool is_seen = other->visible && owner.visible && !owner.mask;  // masks to be corrected share no borders
         if (other->structure == contour.structure || !is_seen || other->points.size() < 3) continue;
         if (!lies_in(*other, old.plane, slice_step_mm(s.image.voxels->grid, old.plane.normal))) continue;
-        if (!exclude(s, contour.structure, other->structure)) continue;
-        if (auto moved = carried_along(*other, old, contour, near_mm, s.edges)) carried.push_back(std::move(*moved));
+        if (other->time != contour.time || !exclude(s, contour.structure, other->structure)) continue;
+        if (auto moved = carried_along(*other, old, contour, near_mm, *s.edges_of(*other)))
+            carried.push_back(std::move(*moved));
     }
     return carried;
 }

@@ -22,6 +22,7 @@ using Calls = std::map<std::string, Call, std::less<>>;
 Calls border_calls();
 Calls contour_calls();
 Calls history_calls();
+Calls motion_calls();
 Calls page_calls();
 Calls point_calls();
 Calls proposal_calls();

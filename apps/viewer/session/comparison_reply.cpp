@@ -14,7 +14,8 @@
 
 namespace kontur::viewer {
 
-std::string comparison_reply(SessionState& s, Id first, Id second, const StopToken& stop) {
+std::string comparison_reply(SessionState& s, const Compared& compared, const StopToken& stop) {
+    const auto [first, second, time] = compared;
     State now = s.state();
     // Readers are compared by what each has drawn, not by borders that they would share.
     now.borders.shared = false;
@@ -27,7 +28,7 @@ std::string comparison_reply(SessionState& s, Id first, Id second, const StopTok
             throw Error(ErrorKind::invalid_input,
                         fmt::format("{} has 0 contours; at least 1 is needed to compare it", one.name));
     const StatusLine line(s.pages.status_teller(), fmt::format("Comparing {} and {}", a.name, b.name));
-    const auto fitted = [&](Id id) { return s.fits.one(now, id, line.work(stop)); };
+    const auto fitted = [&, &at = time](Id id) { return s.fits.one(now, id, line.work(stop), at); };
     const auto fit_a = fitted(first), fit_b = fitted(second);
     const Comparison found = kontur::compare(fit_a->made.mask, fit_b->made.mask, line.work(stop));
     nlohmann::json reply{{"first", first},

@@ -114,7 +114,8 @@ json path(SessionState& s, const Members& m) {
     options.closed = m.flag_or("closed", false);
     options.snap = m.flag_or("snap", true);
     options.snap_radius_mm = snap_radius_mm(plane);
-    const PlacedSketch drawing = draw(sketch_from(m), m.plane("plane"), s.edges, options);
+    const auto edges = s.edges.at(m.time().value_or(s.image.times.own()));
+    const PlacedSketch drawing = draw(sketch_from(m), m.plane("plane"), *edges, options);
     json control = json::array();
     for (const ControlPoint& c : drawing.control) control.push_back(to_json(c));
     return {{"points", to_json(drawing.points)}, {"control", std::move(control)}};
@@ -122,6 +123,7 @@ json path(SessionState& s, const Members& m) {
 
 /// A line that cannot correct its structure's mask is refused before it is a step of the history.
 void check_correction(SessionState& s, const DrawnContour& contour) {
+    check_time(s, structure_of(s.project.state(), contour.structure), contour);
     const auto mask = mask_of(s.project.state(), structure_of(s.project.state(), contour.structure));
     if (!mask) return;
     ContourSet plane;
@@ -171,7 +173,10 @@ json add_contour(SessionState& s, const Members& m) {
     options.snap = false;
     options.closed = m.flag_or("closed", true);
     const Plane plane = m.plane("plane");  // of two wrong members every compiler's program names the same
-    DrawnContour contour = draw_contour(sketch_from(m), plane, s.edges, options);
+    const std::optional<int> time = time_from(s, m.time());
+    const auto edges = s.edges.at(time.value_or(s.image.times.own()));
+    DrawnContour contour = draw_contour(sketch_from(m), plane, *edges, options);
+    contour.time = time;
     contour.structure = structure_of(s.project.state(), m.id("structure")).id;
     set_marks(contour, m);
     return put(s, label_of(m.has("origin") ? m.text("origin", 16) : "drawn"), std::move(contour), m);
@@ -182,32 +187,35 @@ json move_control_point(SessionState& s, const Members& m) {
     options.snap_radius_mm = snap_radius_mm(m);
     const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
     const auto index = static_cast<std::size_t>(m.integer("index", 0, kMostPoints));
-    return put(s, "Move a point", move_point(contour, index, m.point("to"), s.edges, options), m);
+    return put(s, "Move a point", move_point(contour, index, m.point("to"), *s.edges_of(contour), options), m);
 }
 
 json insert_control_point(SessionState& s, const Members& m) {
-    return put(s, "Insert a point", insert_point(contour_of(s.project.state(), m.id("id")), m.point("at"), s.edges), m);
+    const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
+    return put(s, "Insert a point", insert_point(contour, m.point("at"), *s.edges_of(contour)), m);
 }
 
 json delete_control_point(SessionState& s, const Members& m) {
     const auto index = static_cast<std::size_t>(m.integer("index", 0, kMostPoints));
-    return put(s, "Delete a point", delete_point(contour_of(s.project.state(), m.id("id")), index, s.edges), m);
+    const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
+    return put(s, "Delete a point", delete_point(contour, index, *s.edges_of(contour)), m);
 }
 
 json pull_contour(SessionState& s, const Members& m) {
     std::optional<double> radius;
     if (m.has("radius_mm")) radius = m.number("radius_mm");
-    return put(s, "Bend a contour",
-               pull(contour_of(s.project.state(), m.id("id")), m.point("from"), m.point("to"), radius, s.edges), m);
+    const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
+    return put(s, "Bend a contour", pull(contour, m.point("from"), m.point("to"), radius, *s.edges_of(contour)), m);
 }
 
 json redraw_contour(SessionState& s, const Members& m) {
     const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
+    const auto edges = s.edges_of(contour);
     const std::vector<Vec3> path = m.points("path");
     const bool whole = m.flag_or("whole", false);
     const bool is_pushed = m.has("origin") && m.text("origin", 16) == "pushed";
     return put(s, is_pushed ? "Push a contour" : "Redraw a part",
-               whole ? redraw_whole(contour, path, s.edges) : redraw(contour, path, s.edges), m);
+               whole ? redraw_whole(contour, path, *edges) : redraw(contour, path, *edges), m);
 }
 
 json translate_contour(SessionState& s, const Members& m) {
@@ -227,6 +235,7 @@ json copy_contour(SessionState& s, const Members& m) {
     }
     DrawnContour copy = offset(contour, offset_mm);
     copy.id = 0;
+    if (m.has("time")) copy.time = time_from(s, m.time());
     return put(s, "Copy a contour", std::move(copy), m);
 }
 
@@ -235,7 +244,7 @@ json set_contours(SessionState& s, const Members& m) {
     if (m.has("structure")) structure_of(s.project.state(), m.id("structure"));
     for (const Id id : ids_from(m)) {
         const DrawnContour& before = contour_of(s.project.state(), id);
-        changed.contours.push_back({id, before, with_changes(before, m, s.edges)});
+        changed.contours.push_back({id, before, with_changes(before, m, *s.edges_of(before))});
     }
     changed.label =
         fmt::format("{} {}", m.has("visible") ? "Show or hide" : "Change", counted(changed.contours.size(), "contour"));
@@ -247,7 +256,8 @@ json set_contours(SessionState& s, const Members& m) {
 json set_contour(SessionState& s, const Members& m) {
     if (m.has("ids")) return set_contours(s, m);
     if (m.has("structure")) structure_of(s.project.state(), m.id("structure"));
-    return put(s, label_of_marks(m), with_changes(contour_of(s.project.state(), m.id("id")), m, s.edges), m);
+    const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
+    return put(s, label_of_marks(m), with_changes(contour, m, *s.edges_of(contour)), m);
 }
 
 json remove_contours(SessionState& s, const Members& m) {

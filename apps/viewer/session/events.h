@@ -17,6 +17,14 @@ nlohmann::json outlines_event(const std::vector<WatchedPlane>& watched, Id struc
                               const PlaneCutters& cut);
 nlohmann::json to_json(const std::vector<BorderPair>& pairs);
 nlohmann::json further_images_json(const SessionState& s);
+/// After how many frames motion repeats: 0 where it does not, null where nobody has said.
+nlohmann::json cycle_json(const SessionState& s);
+nlohmann::json motion_json(const Motion& motion);
+nlohmann::json motion_event(const Motion& motion);
+/// As contours have it: unset for the one that was opened. Throws Error(invalid_input) for a time that there is not.
+std::optional<int> time_from(const SessionState& s, std::optional<int> time);
+/// Throws Error(invalid_input) for a contour that is drawn into a mask of another time.
+void check_time(const SessionState& s, const Structure& structure, const DrawnContour& contour);
 /// Null where the image cannot tell borders.
 nlohmann::json use_image_json(const SessionState& s);
 
@@ -24,6 +32,8 @@ nlohmann::json use_image_json(const SessionState& s);
 SurfaceEvidence evidence_of(const SessionState& s, const Surface& surface);
 /// The image that fits follow between contours; null where the project does not use it, or it cannot tell borders.
 std::shared_ptr<const Image> image_for_fits(const SessionState& s);
+/// The same at another time.
+std::shared_ptr<const Image> image_for_fits_at(SessionState& s, int time);
 /// 0: the project's own. Null: it is not there. Throws Error(invalid_input) for a number that none can have.
 std::shared_ptr<const Image> image_numbered(SessionState& s, int number, std::optional<int> time);
 /// Shows it beside the project's own image, in place of the one that was; null: none.

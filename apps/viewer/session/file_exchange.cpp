@@ -13,6 +13,7 @@
 #include "kontur/io/contours.h"
 #include "kontur/io/contours/contour_json.h"
 #include "kontur/io/image.h"
+#include "kontur/io/image_frames.h"
 #include "kontur/io/images/segment_tags.h"
 #include "kontur/io/meshes/mesh.h"
 #include "kontur/segment.h"
@@ -24,6 +25,7 @@
 #include "viewer/model/model_json.h"
 #include "viewer/model/status_line.h"
 #include "viewer/model/temporary_files.h"
+#include "viewer/session/events.h"
 #include "viewer/session/replies.h"
 
 // What leaves the session as files and comes in as files.
@@ -34,6 +36,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array kMasks{"mask.nii.gz", "mask.nii", "mask.nrrd", "mask.seg.nrrd", "mask.mha"};
+constexpr std::string_view kMasksOfAll = "masks.nii.gz";  ///< at all times
+constexpr std::string_view kVolumes = "volumes.csv";
 constexpr std::array kMeshes{"mesh.stl", "mesh.ply", "mesh.obj"};
 constexpr std::array kContours{"contours.json", "contours.mrk.json"};
 
@@ -80,7 +84,8 @@ void write_mesh_file(const fs::path& path, const FittedStructure& one) {
     write_mesh(path, *one.made.mesh, provenance_of(one));
 }
 
-void write_picture(const fs::path& path, const FittedStructure& one, const Image& image) {
+/// With the contours of the time, where they are of several.
+void write_picture(const fs::path& path, const FittedStructure& one, const Image& image, int time) {
     const Segmentation& made = one.made;
     PictureOptions options;
     if (one.corrected)
@@ -91,7 +96,16 @@ void write_picture(const fs::path& path, const FittedStructure& one, const Image
         options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)},
                          {"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
                          {"Residual (rms)", fmt::format("{:.2g} mm", made.report.residual.rms_mm)}};
-    write_png(path, make_picture(*made.mesh, one.set, &image, options), provenance_of(one));
+    ContourSet drawn = one.set;
+    std::erase_if(drawn.contours, [&](const Contour& contour) { return contour.frame && *contour.frame != time + 1; });
+    write_png(path, make_picture(*made.mesh, drawn, &image, options), provenance_of(one));
+}
+
+/// That a picture of the structure shows: of one that moves the one that is looked at.
+int picture_time(const State& now, Id structure, std::optional<int> time) {
+    const std::set<int> times = drawn_times(now, structure);
+    if (times.size() > 1) return time.value_or(now.opened_time);
+    return times.empty() || structure_of(now, structure).mask ? now.opened_time : *times.begin();
 }
 
 /// Drawn by hand: what they were made of is the image alone.
@@ -114,6 +128,7 @@ void make_masks(ImportContent& imported, const Grid& grid) {
         if (imported.masks.contains(n) || set.contours.empty()) continue;
         std::string why;
         try {
+            if (is_moving(set)) throw Error(ErrorKind::unsupported, "they are of several frames");
             const Mask mask = rasterize(set, grid);
             const FilledSlices slices = filled_slices(mask);
             if (slices.filled == 0) why = "no voxel of the image lies within its contours";
@@ -159,39 +174,104 @@ void leave_out_taken_labels(ImportContent& imported, const State& state) {
     });
 }
 
+/// DICOM objects refer to the images of one time.
+void check_is_of_one_time(const SessionState& s, const State& now, const ExportChoice& choice) {
+    if (!choice.name.ends_with(".dcm")) return;
+    const int own = s.image.times.own();
+    for (const auto& [id, structure] : now.structures) {
+        const std::set<int> times = drawn_times(now, id);
+        if (structure.mask || times.empty() || (times.contains(own) && choice.time.value_or(own) == own)) continue;
+        throw Error(ErrorKind::unsupported,
+                    times.size() > 1
+                        ? fmt::format("{} refers to the images of frame {}, and {} moves; go to that frame to write what it "
+                                      "is there, or write masks.nii.gz of all frames",
+                                      choice.name, own + 1, structure.name)
+                        : fmt::format("{} refers to the images of frame {}, and {} was drawn in frame {}; write its mask as "
+                                      "NIfTI",
+                                      choice.name, own + 1, structure.name, *times.begin() + 1));
+    }
+}
+
+/// A file of a structure that moves.
+void write_motion(SessionState& s, const State& now, const ExportChoice& choice, const fs::path& path, const Work& work) {
+    const Structure& chosen = structure_of(now, *choice.structure);
+    if (!is_moving(now, chosen.id))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} was drawn in one frame; {} is of a structure that was drawn in several", chosen.name,
+                                choice.name));
+    const auto motion = s.fits.motion(now, chosen.id, work);
+    if (choice.name == kVolumes) return write_file_atomically(path, motion->volumes_csv(s.image.frame_step_s));
+    WriteMaskOptions options;
+    options.provenance = motion->provenance();
+    write_masks(path, motion->masks(), s.image.frame_step_s, options);
+}
+
+/// With their frames where the image has several, and the cycle.
+ContourSet contours_in_time(const SessionState& s, const State& now, Id structure) {
+    ContourSet set = contour_set(now, structure);
+    if (s.image.times.count() < 2 || structure_of(now, structure).mask) return set;
+    std::vector<int> times;
+    for (const auto& [id, contour] : now.contours)
+        if (contour->structure == structure) times.push_back(time_of(now, *contour));
+    const bool is_of_opened = std::ranges::all_of(times, [&](int time) { return time == now.opened_time; });
+    if (!is_of_opened) set_frames(set, times, now);
+    return set;
+}
+
+/// A file of one structure.
+void write_one(SessionState& s, const State& now, const ExportChoice& choice, const fs::path& path, const Work& work) {
+    const std::string& name = choice.name;
+    const Structure& chosen = structure_of(now, *choice.structure);
+    const ContourSet set = contours_in_time(s, now, chosen.id);
+    const ImageReference image = [&] {
+        const std::scoped_lock lock(s.mutex);
+        return s.project.image();
+    }();
+    const auto made = [&] { return s.fits.one(now, chosen.id, work, choice.time); };
+    if (name == kMasksOfAll || name == kVolumes) return write_motion(s, now, choice, path, work);
+    if (is_one_of(name, kMasks)) return write_mask_file(path, *made());
+    if (is_one_of(name, kMeshes)) return write_mesh_file(path, *made());
+    if (chosen.mask && name == "contours.json")
+        return write_corrections_json(path, set, chosen.mask->confirmed_planes, provenance_of_drawing(set, image));
+    if (name == "contours.mrk.json" && is_moving(now, chosen.id))
+        throw Error(ErrorKind::unsupported, fmt::format("{} holds contours of one frame, and {} was drawn in several; write "
+                                                        "contours.json",
+                                                        name, chosen.name));
+    if (is_one_of(name, kContours)) return write_contours(path, set, provenance_of_drawing(set, image));
+    if (name != "picture.png") throw Error(ErrorKind::unsupported, "there is no export of this name");
+    const int time = picture_time(now, chosen.id, choice.time);
+    write_picture(path, *made(), *s.image.times.image(time), time);
+}
+
 }  // namespace
 
-Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const StopToken& stop) {
+Download exported(SessionState& s, const ExportChoice& choice, const StopToken& stop) {
+    const std::string& name = choice.name;
     const StatusLine line(s.pages.status_teller(), "Exporting " + name);
     const TemporaryFolder folder;
     const fs::path path = folder.path() / name;
     Download download{name, "application/octet-stream", {}};
+    time_from(s, choice.time);
     if (name == "project.kontur") {
         const std::scoped_lock lock(s.mutex);
         s.project.copy_to(path);
         download.file_name = file_name(s, "", name);
     } else if (is_export_of_all(name)) {
-        const ExportFits::Fits all = s.fits.all(s.state(), line.work(stop));
+        const State now = s.state();
+        check_is_of_one_time(s, now, choice);
+        const ExportFits::Fits all = s.fits.all(now, line.work(stop), choice.time);
         for (const std::string& note : write_structures(path, name, *all, s.image.series, line.work(stop)))
             s.pages.notice("info", note);
         download.file_name = fmt::format("{}_{}", name_of_image(s), name);
     } else {
-        if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
-        const auto [now, image] = [&] {
-            const std::scoped_lock lock(s.mutex);
-            return std::pair(s.project.state(), s.project.image());
-        }();
-        const Structure& chosen = s.present_structure(now, *structure);
-        const ContourSet set = contour_set(now, *structure);
-        const auto made = [&, &now = now] { return s.fits.one(now, *structure, line.work(stop)); };
-        if (is_one_of(name, kMasks)) write_mask_file(path, *made());
-        else if (is_one_of(name, kMeshes)) write_mesh_file(path, *made());
-        else if (chosen.mask && name == "contours.json")
-            write_corrections_json(path, set, chosen.mask->confirmed_planes, provenance_of_drawing(set, image));
-        else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
-        else if (name == "picture.png") write_picture(path, *made(), *s.image.voxels);
-        else throw Error(ErrorKind::unsupported, "there is no export of this name");
-        download.file_name = file_name(s, chosen.name, name);
+        if (!choice.structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
+        const State now = s.state();
+        const Structure& chosen = s.present_structure(now, *choice.structure);
+        write_one(s, now, choice, path, line.work(stop));
+        const bool is_of_frame = is_moving(now, chosen.id) && (is_one_of(name, kMasks) || is_one_of(name, kMeshes));
+        const std::string frame =
+            is_of_frame ? fmt::format(" frame {}", choice.time.value_or(s.image.times.own()) + 1) : std::string();
+        download.file_name = file_name(s, chosen.name + frame, name);
     }
     download.bytes = read_bytes(path);
     return download;

@@ -14,6 +14,7 @@
 #include "viewer/session/history.h"
 #include "viewer/session/page_json.h"
 #include "viewer/session/replies.h"
+#include "viewer/surfaces/clipped_volume.h"
 
 // What a page is told when it comes, and what it keeps here.
 
@@ -113,12 +114,14 @@ Calls page_calls() { return {{"page.save", {save_page}}, {"ping", {ping, false}}
 
 std::string greeting(SessionState& s, const json& more) {
     const std::scoped_lock lock(s.mutex);
-    json structures = json::array(), contours = json::array(), surfaces = json::array();
+    json structures = json::array(), contours = json::array(), surfaces = json::array(), motions = json::array();
     PageJson page_json;
     for (const auto& [id, structure] : s.project.state().structures) structures.push_back(to_json(structure));
     for (const auto& [id, contour] : s.project.state().contours) contours.push_back(page_json(*contour));
     for (const auto& [id, surface] : s.surfaces.all())
         if (s.project.state().structures.contains(id)) surfaces.push_back(surface_event(s, *surface));
+    for (const auto& [id, motion] : s.surfaces.motions().all())
+        if (s.project.state().structures.contains(id)) motions.push_back(motion_json(*motion));
     const Grid& grid = s.image.voxels->grid;
     const ViewNames names = view_names(grid);
     json event{{"event", "session"},
@@ -148,6 +151,8 @@ std::string greeting(SessionState& s, const json& more) {
                {"structures", structures},
                {"contours", contours},
                {"surfaces", surfaces},
+               {"motions", motions},
+               {"cycle_frames", cycle_json(s)},
                {"borders", to_json(s.project.state().borders)},
                {"use_image", use_image_json(s)},
                {"border_pairs", to_json(s.surfaces.border_pairs())},
@@ -165,6 +170,7 @@ json surface_event(const SessionState& s, const Surface& surface) {
                {"stage", std::string(name(surface.stage))},
                {"triangles", surface.mesh ? surface.mesh->triangles.size() : 0},
                {"warnings", surface.warnings}};
+    if (surface.time) event["time"] = *surface.time;
     for (const LineSide& side : surface.sides)
         event["sides"].push_back(
             {{"contour", side.contour}, {"inside", std::string(kontur::name(side.inside))}, {"sure", side.is_sure}});
@@ -186,17 +192,16 @@ json surface_event(const SessionState& s, const Surface& surface) {
     }
     if (surface.image.verdict != ImageVerdict::none)
         event["image"] = {{"verdict", std::string(name(surface.image.verdict))}, {"text", sentence(surface.image)}};
-    const SurfaceEvidence evidence = evidence_of(s, surface);
-    event["volume_ml"] = evidence.volume_mm3 / 1000;
-    if (auto sentence = cut_by_image(surface.volume_ml, evidence.volume_mm3 / 1000)) event["warnings"].push_back(*sentence);
+    const double within_ml = volume_within_mm3(*surface.mesh, s.image.voxels->grid) / 1000;
+    event["volume_ml"] = within_ml;
+    if (auto sentence = cut_by_image(surface.volume_ml, within_ml)) event["warnings"].push_back(*sentence);
     event["faults"] = to_json(surface.faults);
     for (const EdgeBeside& one : surface.edges_beside)
         event["edges_beside"].push_back({{"contour", one.contour}, {"offset_mm", one.offset_mm}});
-    event["residual"] = {{"max_mm", surface.residual.max_mm},
-                         {"rms_mm", surface.residual.rms_mm},
-                         {"contour", surface.worst_contour},
-                         {"at", to_json(surface.worst_at)}};
-    event["uncertainty"] = to_json(surface_uncertainty(evidence));
+    event["residual"] = {
+        {"max_mm", surface.residual.max_mm}, {"rms_mm", surface.residual.rms_mm}, {"at", to_json(surface.worst_at)}};
+    if (surface.worst_contour != 0) event["residual"]["contour"] = surface.worst_contour;
+    if (surface.evidence) event["uncertainty"] = to_json(surface_uncertainty(evidence_of(s, surface)));
     return event;
 }
 

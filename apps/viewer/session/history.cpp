@@ -7,6 +7,7 @@
 #include "viewer/model/model_json.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/events.h"
+#include "viewer/session/moving_task.h"
 #include "viewer/session/page_json.h"
 
 // Steps of the history, the draft of the moving hand, and the surfaces that follow both.
@@ -35,13 +36,16 @@ bool same_surface(const Structure& a, const Structure& b) {
 
 bool same_surface(const DrawnContour& a, const DrawnContour& b) {
     return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure &&
-           a.closed == b.closed && a.inside == b.inside && a.end == b.end && a.weight == b.weight;
+           a.closed == b.closed && a.inside == b.inside && a.end == b.end && a.weight == b.weight && a.time == b.time;
 }
 
 std::set<Id> touched_surfaces(const SessionState& s, const Commit& step) {
     std::set<Id> touched;
     if (step.use_image)
         for (const auto& [id, structure] : s.project.state().structures) touched.insert(id);
+    if (step.cycle)
+        for (const auto& [id, structure] : s.project.state().structures)
+            if (is_moving(s.project.state(), id)) touched.insert(id);
     for (const auto& change : step.structures)
         if (!change.before || !change.after || !same_surface(*change.before, *change.after)) touched.insert(change.id);
     for (const auto& change : step.contours) {
@@ -143,12 +147,13 @@ void tell_changes(SessionState& s, const Commit& step) {
                   {"contours", changes_json(step.contours)},
                   {"history", history_json(s)},
                   {"borders", to_json(s.project.state().borders)},
-                  {"use_image", use_image_json(s)}});
+                  {"use_image", use_image_json(s)},
+                  {"cycle_frames", cycle_json(s)}});
     s.surfaces.use_image(image_for_fits(s));
     s.surfaces.share_borders(s.project.state().borders);
 }
 
-SurfaceTask surface_task(const SessionState& s, Id structure) {
+SurfaceTask surface_task(SessionState& s, Id structure) {
     SurfaceTask task;
     task.structure = structure;
     task.step = s.steps + (s.draft ? 1 : 0);
@@ -160,10 +165,12 @@ SurfaceTask surface_task(const SessionState& s, Id structure) {
         task.mask = mask_of(state, own->second);
         if (task.mask) task.how = *own->second.mask;
     }
+    std::vector<int> times;
     const auto add = [&](const DrawnContour& contour) {
         if (contour.structure != structure || (own != state.structures.end() && !counts(contour, own->second))) return;
         task.set.contours.push_back(as_contour(contour));
         task.ids.push_back(contour.id);
+        times.push_back(time_of(state, contour));
     };
     // The draft in its contour's place: what is shown of it is then what will be, to the last bit.
     const auto shown = [&](Id id, const DrawnContour& stored) -> const DrawnContour& {
@@ -176,6 +183,9 @@ SurfaceTask surface_task(const SessionState& s, Id structure) {
     };
     for (const auto& [id, contour] : state.contours) add(shown(id, *contour));
     if (s.draft && !state.contours.contains(s.draft->contour.id)) add(s.draft->contour);
+    if (task.mask || times.empty()) return task;
+    if (std::ranges::count(times, times.front()) < std::ssize(times)) turn_into_motion(task, times, s);
+    else if (times.front() != state.opened_time) task.image = image_for_fits_at(s, times.front());
     return task;
 }
 

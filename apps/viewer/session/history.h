@@ -20,7 +20,7 @@ void commit_ahead(SessionState& s, const Commit& step);
 void tell_changes(SessionState& s, const Commit& step);
 
 /// The contours that the structure's surface is made of, the draft in its contour's place.
-SurfaceTask surface_task(const SessionState& s, Id structure);
+SurfaceTask surface_task(SessionState& s, Id structure);
 /// The structure's surface is computed anew.
 void follow(SessionState& s, Id structure);
 

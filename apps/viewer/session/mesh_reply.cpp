@@ -57,15 +57,20 @@ std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::ve
 
 std::string mesh_reply(const SessionState& s, Id structure, bool coded, const MeshExtras& extras) {
     const auto surfaces = s.surfaces.all();
-    const Surface none;
+    const auto seen = s.surfaces.at(extras.time.value_or(s.image.times.own()));
     const TriangleMesh no_mesh;
-    const auto surface_of = [&](Id id) -> const Surface& {
-        const auto found = surfaces.find(id);
-        const bool is_there = found != surfaces.end() && found->second->mesh && s.state().structures.contains(id);
-        return is_there ? *found->second : none;
+    const auto surface_of = [&](Id id) {
+        const auto found = seen.find(id);
+        if (found == seen.end() || !found->second.mesh || !s.state().structures.contains(id)) return Surface{};
+        Surface surface = *surfaces.at(id);
+        if (surface.mesh != found->second.mesh) surface.evidence = nullptr;  // that is of another time
+        surface.mesh = found->second.mesh;
+        surface.revision = found->second.revision;
+        surface.stage = found->second.stage;
+        return surface;
     };
     const auto mesh_of = [&](const Surface& shown) -> const TriangleMesh& { return shown.mesh ? *shown.mesh : no_mesh; };
-    const Surface& surface = surface_of(structure);
+    const Surface surface = surface_of(structure);
     const TriangleMesh& mesh = mesh_of(surface);
     std::vector<double> widths_mm;
     if (extras.widths && surface.evidence && has_full_resolution(surface.stage))
@@ -74,7 +79,10 @@ std::string mesh_reply(const SessionState& s, Id structure, bool coded, const Me
         {"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}};
     if (!coded) return as_numbers(std::move(head), mesh, widths_mm);
     std::vector<double> away_mm;
-    if (extras.far_from) away_mm = distances_mm(mesh.points, mesh_of(surface_of(*extras.far_from)));
+    if (extras.far_from) {
+        const Surface other = surface_of(*extras.far_from);
+        away_mm = distances_mm(mesh.points, mesh_of(other));
+    }
     std::span<const std::uint8_t> origins;
     if (extras.origins && surface.corrected && surface.corrected->mesh == surface.mesh) origins = surface.corrected->origins;
     return as_code(std::move(head), mesh, widths_mm, away_mm, origins);

@@ -40,13 +40,22 @@ double mean_distance_mm(const std::vector<Vec3>& line, const DrawnContour& conto
     return sum / static_cast<double>(line.size());
 }
 
-/// Of the structure's contours on the nearest parallel slice with any the one that runs along the line; null: there is none.
-const DrawnContour* neighbour_of(const std::vector<Vec3>& line, Id structure, const Plane& plane, const State& state,
-                                 double most_mm) {
+/// Where a structure's outline is asked for.
+struct Section {
+    Id structure;
+    Plane plane;
+    int time;
+};
+
+/// Of the structure's contours of the time on the nearest parallel slice with any the one that runs along the line; null:
+/// there is none.
+const DrawnContour* neighbour_of(const std::vector<Vec3>& line, const Section& section, const State& state, double most_mm) {
+    const auto& [structure, plane, time] = section;
     std::vector<const DrawnContour*> near;
     double least_mm = most_mm;
     for (const auto& [id, contour] : state.contours) {
         if (contour->structure != structure || !contour->closed || !contour->visible) continue;
+        if (time_of(state, *contour) != time) continue;
         if (std::abs(dot(contour->plane.normal, plane.normal)) < 1 - 1e-6) continue;
         const double mm = apart_mm(*contour, plane);
         if (mm > least_mm + 1e-3 || mm < 1e-3) continue;
@@ -62,18 +71,20 @@ const DrawnContour* neighbour_of(const std::vector<Vec3>& line, Id structure, co
 json outline_of(SessionState& s, const Members& m) {
     const Id structure = m.id("structure");
     const Plane plane = m.plane("plane");
-    const auto surfaces = s.surfaces.all();
+    const int time = m.time().value_or(s.image.times.own());
+    const auto surfaces = s.surfaces.at(time);
     const auto found = surfaces.find(structure);
     json lines = json::array();
-    if (found == surfaces.end() || !found->second->mesh) return {{"lines", std::move(lines)}};
+    if (found == surfaces.end() || !found->second.mesh) return {{"lines", std::move(lines)}};
     const State now = s.state();
     const bool snaps = m.flag_or("snap", false) && s.image.shows_borders && now.use_image;
     const Vec3 spacing = s.image.voxels->grid.spacing_mm();
     const double most_mm = kMostSlicesApart * std::max({spacing.x, spacing.y, spacing.z});
-    for (Polyline& line : proposed_lines(*found->second->mesh, plane)) {
-        const DrawnContour* beside = snaps ? neighbour_of(line.points, structure, plane, now, most_mm) : nullptr;
+    for (Polyline& line : proposed_lines(*found->second.mesh, plane)) {
+        const DrawnContour* beside = snaps ? neighbour_of(line.points, {structure, plane, time}, now, most_mm) : nullptr;
         if (beside)
-            line.points = thinned(snapped_line({line.points, plane}, {beside->points, beside->plane}, *s.image.voxels));
+            line.points =
+                thinned(snapped_line({line.points, plane}, {beside->points, beside->plane}, *s.image.times.image(time)));
         lines.push_back(to_json(line.points));
     }
     return {{"lines", std::move(lines)}};

@@ -30,6 +30,20 @@ struct MeshExtras {
     bool widths = false;           ///< of the 90 % band there, which take longer than all the rest
     bool origins = false;          ///< who made it there, of a mask to be corrected
     std::optional<Id> far_from{};  ///< how far they are from the surface of this structure
+    std::optional<int> time{};     ///< of the image, which a structure that moves is seen at; unset: the opened one
+};
+
+/// What is to be downloaded.
+struct ExportChoice {
+    std::string name;             ///< of a kind, as "mask.nii.gz"
+    std::optional<Id> structure;  ///< unset: all
+    std::optional<int> time;      ///< of the image; unset: the opened one
+};
+
+/// Two structures, at a time of the image; unset: the opened one.
+struct Compared {
+    Id first = 0, second = 0;
+    std::optional<int> time;
 };
 
 /// A name and the bytes of a file to download.
@@ -46,11 +60,12 @@ std::string slice_reply(SessionState& s, std::string_view request);
 /// `coded`: in few bytes, which are worth compressing.
 std::string mesh_reply(const SessionState& s, Id structure, bool coded, const MeshExtras& extras);
 /// These three throw StructureRemoved for a structure that another page has removed meanwhile.
-Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const StopToken& stop);
-/// Of all structures with contours, as JSON.
-std::string statistics_reply(SessionState& s, const StopToken& stop);
+/// Of structures that move, at the chosen time.
+Download exported(SessionState& s, const ExportChoice& choice, const StopToken& stop);
+/// Of all structures with contours, as JSON; of those that move, at the time.
+std::string statistics_reply(SessionState& s, std::optional<int> time, const StopToken& stop);
 /// How two structures agree, voxel by voxel, as JSON.
-std::string comparison_reply(SessionState& s, Id first, Id second, const StopToken& stop);
+std::string comparison_reply(SessionState& s, const Compared& compared, const StopToken& stop);
 
 ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const StopToken& stop);
 /// Structure sets and segmentations that lie near a DICOM image and were drawn on it, or in its frame of reference, as JSON.

@@ -36,12 +36,15 @@ public:
     std::string mesh(Id structure, bool coded = false, const MeshExtras& extras = {.widths = true}) {
         return mesh_reply(state_, structure, coded, extras);
     }
-    Download exported(const std::string& name, std::optional<Id> structure, const StopToken& stop = {}) {
-        return viewer::exported(state_, name, structure, stop);
+    Download exported(const std::string& name, std::optional<Id> structure, const StopToken& stop = {},
+                      std::optional<int> time = {}) {
+        return viewer::exported(state_, {name, structure, time}, stop);
     }
-    std::string statistics(const StopToken& stop = {}) { return statistics_reply(state_, stop); }
-    std::string compare(Id first, Id second, const StopToken& stop = {}) {
-        return comparison_reply(state_, first, second, stop);
+    std::string statistics(const StopToken& stop = {}, std::optional<int> time = {}) {
+        return statistics_reply(state_, time, stop);
+    }
+    std::string compare(Id first, Id second, const StopToken& stop = {}, std::optional<int> time = {}) {
+        return comparison_reply(state_, {first, second, time}, stop);
     }
     ImportReply import(const std::string& bytes, const Upload& upload, const StopToken& stop = {}) {
         return viewer::import(state_, bytes, upload, stop);

@@ -23,15 +23,17 @@ SurfaceListener surface_listener(const SessionState& s) {
                 if (!problem.empty())
                     s.pages.notice("warning", fmt::format("Structures share no borders here: {}", problem));
                 s.pages.tell({{"event", "borders"}, {"pairs", to_json(pairs)}});
-            }};
+            },
+            [&s](const std::shared_ptr<const Motion>& motion) { s.pages.tell(motion_event(*motion)); }};
 }
 
 }  // namespace
 
 SessionState::SessionState(OpenedImage opened, const std::filesystem::path& path)
     : image(opened),
-      edges(image.voxels),
-      fits(image.voxels),
+      edges(image.times),
+      fits(
+          image.voxels, [this](int time) { return image.times.image(time); }, image.times.count()),
       notes(std::move(opened.notes)),
       project(path, opened.reference),
       surfaces(surface_listener(*this)) {
@@ -45,6 +47,8 @@ SessionState::SessionState(OpenedImage opened, const std::filesystem::path& path
                         path.filename().string()));
     else if (project.image().path != opened.reference.path || project.image().choice != opened.reference.choice)
         project.save_image(opened.reference);
+    project.set_opened_time(image.times.own());
+    surfaces.motions().look_at(image.times.own());
     surfaces.use_image(image_for_fits(*this));
     surfaces.share_borders(project.state().borders);
     for (const auto& [id, structure] : project.state().structures) surfaces.follow_later(surface_task(*this, id));

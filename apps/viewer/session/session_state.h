@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "kontur/base/error.h"
-#include "viewer/edits/slice_edges.h"
 #include "viewer/files/export_fits.h"
 #include "viewer/images/further_image.h"
 #include "viewer/images/project_image.h"
+#include "viewer/session/edges_in_time.h"
 #include "viewer/session/pages.h"
 #include "viewer/session/watched_planes.h"
 #include "viewer/store/project.h"
@@ -64,9 +64,13 @@ struct SessionState {
     State state() const;
     /// The structure; throws StructureRemoved, or as `structure_of` for an id that none can have had. Locks.
     const Structure& present_structure(const State& now, Id id) const;
+    /// Of the volume that the contour was drawn in.
+    std::shared_ptr<SliceEdges> edges_of(const DrawnContour& contour) {
+        return edges.at(contour.time.value_or(image.times.own()));
+    }
 
     ProjectImage image;
-    SliceEdges edges;
+    EdgesInTime edges;
     ExportFits fits;
     Pages pages;
     WatchedPlanes watched;

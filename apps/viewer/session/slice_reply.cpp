@@ -161,12 +161,13 @@ struct SliceLines {
     PixelPoints lines{raster}, dots{raster};
 };
 
-/// Lines of the visible surfaces; points of the visible contours that cross the plane, names of those that lie in it.
-void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const Surface>>& surfaces, SliceLines& slice) {
+/// Lines of the visible surfaces; points of the visible contours of this time that cross the plane, names of those that lie
+/// in it.
+void add_outlines(const State& state, const std::map<Id, ShownSurface>& surfaces, int time, SliceLines& slice) {
     const Plane& plane = slice.raster.plane;
     const auto is_visible = [&](Id id) { return state.structures.contains(id) && state.structures.at(id).visible; };
     for (const auto& [id, surface] : surfaces) {
-        if (!is_visible(id) || !surface->mesh) continue;
+        if (!is_visible(id) || !surface.mesh) continue;
         const auto runs_of = [&](const TriangleMesh& mesh) {
             json runs = json::array();
             for (const Polyline& line : outline(mesh, plane)) {
@@ -175,12 +176,12 @@ void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const S
             }
             return runs;
         };
-        json lines{{"structure", id}, {"revision", surface->revision}, {"lines", runs_of(*surface->mesh)}};
-        if (surface->without_image) lines["without_image"] = runs_of(*surface->without_image);
+        json lines{{"structure", id}, {"revision", surface.revision}, {"lines", runs_of(*surface.mesh)}};
+        if (surface.without_image) lines["without_image"] = runs_of(*surface.without_image);
         slice.head["outlines"].push_back(std::move(lines));
     }
     for (const auto& [id, contour] : state.contours) {
-        if (!contour->visible || !is_visible(contour->structure)) continue;
+        if (!contour->visible || !is_visible(contour->structure) || time_of(state, *contour) != time) continue;
         if (lies_in(*contour, plane, slice.thickness_mm)) {
             slice.head["contours"].push_back(id);
             continue;
@@ -194,7 +195,10 @@ void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const S
 
 }  // namespace
 
-json outlines_event(const std::vector<WatchedPlane>& watched, Id structure, std::int64_t revision, const PlaneCutters& cut) {
+json outlines_event(const std::vector<WatchedPlane>& all, Id structure, std::int64_t revision, const PlaneCutters& cut) {
+    std::vector<WatchedPlane> watched;
+    std::ranges::copy_if(all, std::back_inserter(watched),
+                         [&](const WatchedPlane& plane) { return !cut.time || *cut.time == plane.time; });
     json views = json::array();
     for (const WatchedPlane& plane : watched) views.push_back({{"view", plane.view}, {"plane", plane.plane}});
     parallel_for(static_cast<std::int64_t>(watched.size()), 1, 0, [&](std::int64_t begin, std::int64_t end) {
@@ -204,13 +208,19 @@ json outlines_event(const std::vector<WatchedPlane>& watched, Id structure, std:
             if (cut.without_image) views[view]["without_image"] = in_pixels(cut.without_image(raster.plane), raster);
         }
     });
-    return {{"event", "outlines"}, {"structure", structure}, {"revision", revision}, {"views", std::move(views)}};
+    json event{{"event", "outlines"}, {"structure", structure}, {"revision", revision}, {"views", std::move(views)}};
+    if (cut.time) event["time"] = *cut.time;
+    return event;
 }
 
 std::string slice_reply(SessionState& s, std::string_view text) {
     const SliceRequest request = parse(text);
     const std::shared_ptr<const Image> image = image_numbered(s, request.image, request.time);
-    if (request.outlines) s.watched.set({request.page, request.view, request.raster, request.plane});
+    const int time = request.time.value_or(s.image.times.own());
+    if (request.outlines) {
+        s.watched.set({request.page, request.view, request.raster, request.plane, time});
+        s.surfaces.motions().look_at(time);
+    }
     const EdgeLetters letters = edge_letters(request.raster.plane);
     json head{
         {"width", request.raster.width},
@@ -218,7 +228,7 @@ std::string slice_reply(SessionState& s, std::string_view text) {
         {"letters", {{"left", letters.left}, {"right", letters.right}, {"top", letters.top}, {"bottom", letters.bottom}}}};
     head["outlines"] = head["crossings"] = head["contours"] = json::array();
     SliceLines slice{request.raster, slice_step_mm(s.image.voxels->grid, request.raster.plane.normal), head};
-    if (request.outlines) add_outlines(s.state(), s.surfaces.all(), slice);
+    if (request.outlines) add_outlines(s.state(), s.surfaces.at(time), time, slice);
     if (!image) head["gone"] = true;
     const SentPixels sent = image ? sent_pixels(image->grid, request) : SentPixels{};
     CodedValues coded;

@@ -39,22 +39,38 @@ json row_json(const FittedStructure& one, const Image& image) {
     return row;
 }
 
+/// The second image's own voxels within what moves are not looked at.
+State still_alone(const State& now) {
+    State still = now;
+    std::erase_if(still.contours, [&](const auto& item) { return is_moving(now, item.second->structure); });
+    return still;
+}
+
+/// In which it was drawn, or is looked at where it moves.
+std::shared_ptr<const Image> image_of(SessionState& s, const State& now, Id structure, std::optional<int> time) {
+    if (is_moving(now, structure)) return s.image.times.image(time.value_or(s.image.times.own()));
+    const std::set<int> drawn = drawn_times(now, structure);
+    const bool is_mask = structure_of(now, structure).mask.has_value();
+    return s.image.times.image(drawn.empty() || is_mask ? s.image.times.own() : *drawn.begin());
+}
+
 }  // namespace
 
-std::string statistics_reply(SessionState& s, const StopToken& stop) {
+std::string statistics_reply(SessionState& s, std::optional<int> time, const StopToken& stop) {
     const StatusLine line(s.pages.status_teller(), "Measuring");
     const State now = s.state();
     const std::shared_ptr<const FurtherImage> second = s.second.get();
-    const ExportFits::Fits fits = s.fits.all(now, line.work(stop));
+    const ExportFits::Fits fits = s.fits.all(now, line.work(stop), time);
     const std::vector<FittedStructure>& all = *fits;
     json rows = json::array();
-    for (const FittedStructure& one : all) rows.push_back(row_json(one, *s.image.voxels));
+    for (const FittedStructure& one : all) rows.push_back(row_json(one, *image_of(s, now, one.structure.id, time)));
     json reply{{"unit", s.image.unit}};
     if (second) {
         const Image& other = *second->opened.image;
         const bool is_same_grid = other.grid == s.image.voxels->grid;
-        const auto refitted = is_same_grid ? std::vector<FittedStructure>{}
-                                           : fit_structures_on(other.grid, now, *s.image.voxels, line.work(stop));
+        const auto refitted = is_same_grid
+                                  ? std::vector<FittedStructure>{}
+                                  : fit_structures_on(other.grid, still_alone(now), *s.image.voxels, line.work(stop));
         const std::vector<FittedStructure>& on_other = is_same_grid ? all : refitted;
         for (json& row : rows) row["second"] = {{"voxels", 0}};
         for (std::size_t n = 0, row = 0; n < on_other.size(); ++n, ++row) {

@@ -16,6 +16,7 @@
 #include "viewer/session/calls.h"
 #include "viewer/session/history.h"
 #include "viewer/session/replies.h"
+#include "viewer/session/times_of_contours.h"
 
 // Structures: made, named, imported, removed.
 
@@ -173,6 +174,14 @@ json remove_structure(SessionState& s, const Members& m) {
     return json::object();
 }
 
+FramesOfImage frames_of(const SessionState& s) { return {s.image.times.count(), s.image.times.own(), s.image.frame_step_s}; }
+
+/// What a file says of the cycle counts where nobody has said it before.
+void add_cycle(Commit& added, const State& state, const std::vector<ContourSet>& sets) {
+    for (const ContourSet& set : sets)
+        if (set.cycle_frames && !state.cycle_frames && !added.cycle) added.cycle = CycleChange{{}, set.cycle_frames};
+}
+
 Commit new_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,
                       const LabelValues& values, const ImportedMasks& masks = {}) {
     Commit added{label, {}, {}};
@@ -181,6 +190,7 @@ Commit new_structures(SessionState& s, const std::string& label, const std::vect
         added.structures.push_back({unused->id, unused, {}});
         state.structures.clear();
     }
+    add_cycle(added, state, sets);
     std::size_t points = 0, place = 0;
     for (const auto& [id, contour] : state.contours) points += contour->points.size();
     for (const ContourSet& set : sets) {
@@ -206,6 +216,7 @@ Commit new_structures(SessionState& s, const std::string& label, const std::vect
             DrawnContour drawn = as_drawn(contour);
             drawn.id = s.project.new_id();
             drawn.structure = structure.id;
+            if (!structure.mask) drawn.time = time_of(contour, frames_of(s));
             added.contours.push_back({drawn.id, {}, std::move(drawn)});
         }
     }
@@ -226,8 +237,11 @@ Calls structure_calls() {
 
 std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,
                                const LabelValues& values, const ImportedMasks& masks) {
+    std::vector<ContourSet> in_frames = sets;
+    for (ContourSet& set : in_frames)
+        for (const std::string& note : put_into_frames(set, frames_of(s))) s.pages.notice("info", note);
     const std::scoped_lock lock(s.mutex);
-    const Commit added = new_structures(s, label, sets, values, masks);
+    const Commit added = new_structures(s, label, in_frames, values, masks);
     clear_draft(s);
     s.project.commit(added);
     tell_changes(s, added);
@@ -242,7 +256,10 @@ std::vector<Id> add_structures(SessionState& s, const std::string& label, const 
 
 void begin_with(SessionState& s, const std::vector<ContourSet>& sets) {
     const std::scoped_lock lock(s.mutex);
-    const Commit first = new_structures(s, {}, sets, {});
+    std::vector<ContourSet> in_frames = sets;
+    for (ContourSet& set : in_frames)
+        for (std::string& note : put_into_frames(set, frames_of(s))) s.notes.push_back(std::move(note));
+    const Commit first = new_structures(s, {}, in_frames, {});
     s.project.begin_with(first);
     for (const Change<Structure>& change : first.structures) s.surfaces.follow_later(surface_task(s, change.id));
 }

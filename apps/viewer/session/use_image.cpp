@@ -30,6 +30,10 @@ std::shared_ptr<const Image> image_for_fits(const SessionState& s) {
     return s.image.shows_borders && s.project.state().use_image ? s.image.voxels : nullptr;
 }
 
+std::shared_ptr<const Image> image_for_fits_at(SessionState& s, int time) {
+    return image_for_fits(s) ? s.image.times.image(time) : nullptr;
+}
+
 json use_image_json(const SessionState& s) {
     return s.image.shows_borders ? json(s.project.state().use_image) : json(nullptr);
 }

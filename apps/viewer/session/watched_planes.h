@@ -15,6 +15,7 @@ struct WatchedPlane {
     std::string page, view;
     Reslice raster;
     nlohmann::json plane;  ///< as the page named it
+    int time = 0;          ///< of the image
 };
 
 /// The latest plane of each page's views, as many as two pages have. Safe for concurrent use.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@ using nlohmann::json;
 constexpr int kApplicationId = 0x6b6f6e74;  // "kont"
 constexpr int kVersion = 1;                 // of a project without masks, which older versions of kontur can open
 constexpr int kVersionWithMasks = 2;        // the table is made with the first one
+constexpr int kVersionWithTimes = 3;        // since the first contour of another time; older ones would take it for any
 
 constexpr const char* kSchema =
     "CREATE TABLE setting (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
@@ -25,7 +27,8 @@ constexpr const char* kSchema =
     "CREATE TABLE contour (id INTEGER PRIMARY KEY, data TEXT NOT NULL);"
     "CREATE TABLE history (number INTEGER PRIMARY KEY, label TEXT NOT NULL, time TEXT NOT NULL, changes TEXT NOT NULL);";
 
-constexpr const char* kMaskTable = "CREATE TABLE mask (hash TEXT PRIMARY KEY, header TEXT NOT NULL, packed BLOB NOT NULL);";
+constexpr const char* kMaskTable =
+    "CREATE TABLE IF NOT EXISTS mask (hash TEXT PRIMARY KEY, header TEXT NOT NULL, packed BLOB NOT NULL);";
 
 Structure row_from(const json& value, const Structure*) { return structure_from_json(value); }
 DrawnContour row_from(const json& value, const DrawnContour*) { return contour_from_json(value, kStoredLimits); }
@@ -84,6 +87,22 @@ std::optional<UseImageChange> use_image_change_from(const json& changes) {
     return UseImageChange{change.flag("before"), change.flag("after")};
 }
 
+json to_json(const std::optional<double>& cycle) { return cycle ? json(*cycle) : json(nullptr); }
+
+std::optional<double> cycle_from(const json& value) {
+    if (value.is_null()) return std::nullopt;
+    constexpr double kMost = 1e6;
+    if (!value.is_number() || !(value.get<double>() >= 0 && value.get<double>() <= kMost))
+        throw Error(ErrorKind::invalid_input, "the cycle is no number of frames");
+    return value.get<double>();
+}
+
+/// Of steps from before contours had times there is none.
+std::optional<CycleChange> cycle_change_from(const json& changes) {
+    if (!changes.contains("cycle_frames")) return std::nullopt;
+    return CycleChange{cycle_from(changes["cycle_frames"].at("before")), cycle_from(changes["cycle_frames"].at("after"))};
+}
+
 /// `body()`, with everything that JSON or our own checks find wrong told as damage of the file.
 template <class Body>
 auto reading(const Database& database, Body body) {
@@ -111,10 +130,10 @@ void write_rows(Database& database, const std::vector<Change<Row>>& changes, con
 void check_format(const std::filesystem::path& path, std::int64_t application_id, std::int64_t version) {
     if (application_id != kApplicationId)
         throw Error(ErrorKind::corrupt_file, fmt::format("{} is no kontur project", path.string()));
-    if (version < kVersion || version > kVersionWithMasks)
+    if (version < kVersion || version > kVersionWithTimes)
         throw Error(ErrorKind::unsupported,
                     fmt::format("{} was written by a newer kontur: its version is {}, {} is supported", path.string(),
-                                version, kVersionWithMasks));
+                                version, kVersionWithTimes));
 }
 
 /// `path`, once its first bytes say that it is ours, or new: SQLite alters the files of others already by opening them our
@@ -180,6 +199,8 @@ void Project::load() {
         if (const std::string borders = setting("borders"); !borders.empty())
             state_.borders = borders_from_json(parsed(borders));
         state_.use_image = setting("use_image") == "true";  // projects of before have none: they stay what they were
+        if (const std::string cycle = setting("cycle_frames"); !cycle.empty())
+            state_.cycle_frames = cycle_from(parsed(cycle));
         position_ = Members(numbers).integer("position", 0, kLargestId - 1);
         next_id_ = Members(numbers).id("next_id");
         load_masks();
@@ -275,6 +296,8 @@ void Project::commit(const Commit& commit) {
         changes["borders"] = {{"before", viewer::to_json(commit.borders->before)},
                               {"after", viewer::to_json(commit.borders->after)}};
     if (commit.use_image) changes["use_image"] = {{"before", commit.use_image->before}, {"after", commit.use_image->after}};
+    if (commit.cycle)
+        changes["cycle_frames"] = {{"before", to_json(commit.cycle->before)}, {"after", to_json(commit.cycle->after)}};
     Transaction transaction(database_);
     Query(database_, "DELETE FROM history WHERE number > ?1").bind(position_).finish();
     Query(database_, "INSERT INTO history VALUES (?1, ?2, datetime('now'), ?3)")
@@ -295,6 +318,7 @@ std::optional<Commit> Project::undo() {
     turn_back(commit->contours);
     if (commit->borders) std::swap(commit->borders->before, commit->borders->after);
     if (commit->use_image) std::swap(commit->use_image->before, commit->use_image->after);
+    if (commit->cycle) std::swap(commit->cycle->before, commit->cycle->after);
     Transaction transaction(database_);
     store(*commit, position_ - 1);
     transaction.commit();
@@ -331,11 +355,20 @@ std::optional<Commit> Project::step(std::int64_t number) {
         Commit commit{query.text(0), changes_from<Structure>(changes.at("structures")),
                       changes_from<DrawnContour>(changes.at("contours")), borders_change_from(changes),
                       use_image_change_from(changes)};
+        commit.cycle = cycle_change_from(changes);
         for (const auto& change : commit.structures)
             for (const auto& side : {change.before, change.after})
                 if (side) mask_of(state_, *side);
         return commit;
     });
+}
+
+/// An older kontur would take such contours for those of the opened volume.
+void Project::store_version(const Commit& commit) {
+    const bool has_times =
+        std::ranges::any_of(commit.contours, [](const auto& change) { return change.after && change.after->time; });
+    if (has_times && database_.number("PRAGMA user_version") < kVersionWithTimes)
+        database_.run(fmt::format("{} PRAGMA user_version = {};", kMaskTable, kVersionWithTimes).c_str());
 }
 
 void Project::store_masks(const Commit& commit) {
@@ -352,12 +385,14 @@ void Project::store_masks(const Commit& commit) {
 
 void Project::store(const Commit& commit, std::int64_t new_position) {
     store_masks(commit);
+    store_version(commit);
     write_rows(database_, commit.structures, "INSERT OR REPLACE INTO structure VALUES (?1, ?2)",
                "DELETE FROM structure WHERE id = ?1");
     write_rows(database_, commit.contours, "INSERT OR REPLACE INTO contour VALUES (?1, ?2)",
                "DELETE FROM contour WHERE id = ?1");
     if (commit.borders) save_setting("borders", to_text(viewer::to_json(commit.borders->after)));
     if (commit.use_image) save_setting("use_image", commit.use_image->after ? "true" : "false");
+    if (commit.cycle) save_setting("cycle_frames", to_text(to_json(commit.cycle->after)));
     save_setting("position", std::to_string(new_position));
     save_setting("next_id", std::to_string(next_id_));
 }
@@ -374,6 +409,7 @@ void Project::apply(const Commit& commit) {
     }
     if (commit.borders) state_.borders = commit.borders->after;
     if (commit.use_image) state_.use_image = commit.use_image->after;
+    if (commit.cycle) state_.cycle_frames = commit.cycle->after;
 }
 
 ImageReference image_of_project(const std::filesystem::path& path) {

@@ -29,6 +29,10 @@ struct UseImageChange {
     bool before = false, after = false;
 };
 
+struct CycleChange {
+    std::optional<double> before, after;  ///< as State has it
+};
+
 /// One step of the history.
 struct Commit {
     std::string label;  ///< what the user did, as in "Undo: LABEL"
@@ -37,8 +41,9 @@ struct Commit {
     std::optional<BordersChange> borders{};
     std::optional<UseImageChange> use_image{};
     std::vector<std::shared_ptr<const StoredMask>> masks{};  ///< that its structures correct; they stay when it is undone
+    std::optional<CycleChange> cycle{};
 
-    bool is_empty() const { return structures.empty() && contours.empty() && !borders && !use_image; }
+    bool is_empty() const { return structures.empty() && contours.empty() && !borders && !use_image && !cycle; }
 };
 
 /// A project file: the present state, every step that led there and every step that was undone, and the image's name. What
@@ -55,6 +60,9 @@ public:
     const ImageReference& image() const { return image_; }
     /// Whether nothing had ever been in it when it was opened: made now, or at a start that failed before it was filled.
     bool is_new() const { return is_new_; }
+
+    /// Which volume in time of the image was opened, which contours without a time belong to.
+    void set_opened_time(int time) { state_.opened_time = time; }
 
     /// Whether nothing can be changed, because the file cannot be written.
     bool is_read_only() const { return is_read_only_; }
@@ -103,6 +111,7 @@ private:
     std::optional<Commit> step(std::int64_t number);
     void store(const Commit& commit, std::int64_t new_position);
     void store_masks(const Commit& commit);
+    void store_version(const Commit& commit);
     void load_masks();
     void apply(const Commit& commit);
 

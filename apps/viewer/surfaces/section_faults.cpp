@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/surfaces/section_faults.h"
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -11,9 +12,10 @@ std::vector<SurfaceFault> surface_faults(const SectionCheck& check, const std::v
     std::map<SectionFaultKind, int> counts;
     std::vector<SurfaceFault> found;
     for (const SectionFault& fault : faults(check)) {
+        // Where a structure moves, sections without an id stand for contours.
+        if (std::ranges::any_of(fault.contours, [&](std::size_t n) { return ids.at(n) == 0; })) continue;
         if (++counts[fault.kind] > kMost) continue;
-        SurfaceFault& shown =
-            found.emplace_back(SurfaceFault{fault.kind, fault.position, {}, fault.share, fault.length_mm});
+        SurfaceFault& shown = found.emplace_back(SurfaceFault{fault.kind, fault.position, {}, fault.share, fault.length_mm});
         for (const std::size_t contour : fault.contours) shown.contours.push_back(ids.at(contour));
     }
     return found;

@@ -29,12 +29,15 @@ Vec3 worst_point(const Contour& contour, const ImplicitFunction& function) {
     return contour.points[static_cast<std::size_t>(worst - values.begin())];
 }
 
+/// Whether all of these are contours of the structure: sections stand for contours where it moves.
+bool are_drawn(std::initializer_list<Id> ids) { return std::ranges::find(ids, Id{0}) == ids.end(); }
+
 /// Places where contours disagree by more than careful hands do, in large organs more than in small ones.
 std::vector<Conflict> conflicts(const SurfaceTask& task, const std::vector<Crossing>& crossings) {
     const double least_mm = std::max(1.0, 0.015 * diameter_mm(task.set));
     std::vector<Conflict> found;
     for (const Crossing& crossing : crossings)
-        if (crossing.disagreement_mm >= least_mm)
+        if (crossing.disagreement_mm >= least_mm && are_drawn({task.ids[crossing.contour], task.ids[crossing.other]}))
             found.push_back({task.ids[crossing.contour], task.ids[crossing.other],
                              0.5 * (crossing.position + crossing.other_position), crossing.disagreement_mm});
     std::stable_sort(found.begin(), found.end(),
@@ -55,6 +58,7 @@ Surface no_surface(Id structure, std::vector<std::string> warnings = {}) {
 
 Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     Surface surface = no_surface(task.structure);
+    if (task.motion) surface.time = task.time;
     if (update.kind == EditorUpdate::Kind::problem && !task.set.contours.empty()) surface.warnings.push_back(update.problem);
     if (update.surface.mesh.triangles.empty()) {
         if (!update.surface.finished || task.set.contours.empty()) return surface;
@@ -67,9 +71,11 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
                                              : SurfaceStage::finished;
     surface.mesh = std::make_shared<const TriangleMesh>(update.surface.mesh);
     for (const FoundSide& found : update.surface.sides)
-        surface.sides.push_back({task.ids[found.contour], found.inside, found.is_sure});
+        if (are_drawn({task.ids[found.contour]}))
+            surface.sides.push_back({task.ids[found.contour], found.inside, found.is_sure});
     for (const NearLines& pair : update.surface.near_lines)
-        surface.near_lines.push_back({task.ids[pair.contour], task.ids[pair.other], pair.apart_mm, pair.is_one});
+        if (are_drawn({task.ids[pair.contour], task.ids[pair.other]}))
+            surface.near_lines.push_back({task.ids[pair.contour], task.ids[pair.other], pair.apart_mm, pair.is_one});
     if (!update.surface.finished) return surface;
     surface.volume_ml = signed_volume_mm3(*surface.mesh) / 1000;
     surface.residual = update.surface.residual;
@@ -78,12 +84,13 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     const std::vector<Crossing> crossings = find_crossings(task.set);
     surface.conflicts = conflicts(task, crossings);
     surface.faults = surface_faults(update.surface.section_check, task.ids);
-    surface.evidence = std::make_shared<const SurfaceEvidence>(
-        gather_evidence(sample_surface(*surface.mesh, update.surface.function), task.set,
-                        {.volume_mm3 = 1000 * surface.volume_ml,
-                         .residual_mm = surface.residual.rms_mm,
-                         .disagreement_mm = trusted_disagreement_mm(disagreement(crossings)),
-                         .shares = update.surface.image.shares}));
+    if (!task.motion)
+        surface.evidence = std::make_shared<const SurfaceEvidence>(
+            gather_evidence(sample_surface(*surface.mesh, update.surface.function), task.set,
+                            {.volume_mm3 = 1000 * surface.volume_ml,
+                             .residual_mm = surface.residual.rms_mm,
+                             .disagreement_mm = trusted_disagreement_mm(disagreement(crossings)),
+                             .shares = update.surface.image.shares}));
     surface.image = update.surface.image;
     surface.drawn = std::make_shared<const ContourSet>(task.set);
     return surface;
@@ -101,7 +108,7 @@ PlaneCutters cutters(const Surface& surface) {
             return lines;
         };
     };
-    return {cutter(surface.mesh), cutter(surface.without_image)};
+    return {cutter(surface.mesh), cutter(surface.without_image), surface.time};
 }
 
 std::string_view name(SurfaceStage stage) noexcept {
@@ -145,7 +152,10 @@ void Surfaces::end_editors() {
 
 void Surfaces::outdate(const std::set<Id>& structures) {
     const std::scoped_lock lock(mutex_);
-    for (const Id structure : structures) outdate_locked(structure);
+    for (const Id structure : structures) {
+        outdate_locked(structure);
+        motions_.outdate(structure);
+    }
 }
 
 void Surfaces::outdate_locked(Id structure) {
@@ -198,6 +208,8 @@ void Surfaces::start(SurfaceTask task) {
     const Id structure = task.structure;
     outdate_locked(structure);
     sharing_stop_.request_stop();
+    if (task.motion) motions_.outdate(structure);
+    else motions_.forget(structure);
     Follower& follower = followers_[structure];
     follower.is_outdated = false;
     if (task.mask) return start_mask(follower, std::move(task));
@@ -220,7 +232,7 @@ void Surfaces::start(SurfaceTask task) {
         }
     }
     // The lock makes the editor's answer wait until its task is known.
-    follower.last_edit = follower.edits_before + follower.editor->edit(task.set, image_);
+    follower.last_edit = follower.edits_before + follower.editor->edit(task.set, image_of(task));
     follower.is_working = true;
     follower.tasks[follower.last_edit] = std::move(task);
 }
@@ -259,6 +271,7 @@ void Surfaces::wait() {
         sharing_changed_.wait(lock, [&] { return !is_sharing_wanted_ && !is_sharing_; });
         is_done = is_done && later_.empty();
     }
+    motions_.wait();
 }
 
 std::map<Id, std::shared_ptr<const Surface>> Surfaces::all() const {
@@ -276,10 +289,10 @@ void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update
         const std::scoped_lock lock(mutex_);
         Follower& follower = followers_[structure];
         if (edit <= follower.edits_before) return;
-        image = image_;
         auto& tasks = follower.tasks;
         tasks.erase(tasks.begin(), tasks.lower_bound(edit));
         task = tasks.at(edit);
+        image = image_of(task);
         known = std::exchange(follower.without_image, {});
         is_held_back = is_alone(update) && follower.shows_image;
     }
@@ -334,19 +347,23 @@ void Surfaces::finish_locked(Follower& follower, const SurfaceTask& task) {
         retired_.push_back(std::move(follower.editor));
         follower.tasks.clear();
     }
+    if (task.motion) motions_.follow(*task.motion);
     listener_.status("", std::nullopt);
     start_next();
 }
 
 void Surfaces::hear_ahead(Id structure, std::uint64_t edit, const SurfaceBand& band) {
     const std::int64_t revision = next_revision();
+    PlaneCutters cut{[&](const Plane& plane) { return band.cut(plane); }};
     {
         const std::scoped_lock lock(mutex_);
         Follower& follower = followers_[structure];
         if (edit <= follower.edits_before) return;
         follower.ahead = revision;
+        const auto task = follower.tasks.find(edit);
+        if (task != follower.tasks.end() && task->second.motion) cut.time = task->second.time;
     }
-    listener_.outlines(structure, revision, {[&](const Plane& plane) { return band.cut(plane); }});
+    listener_.outlines(structure, revision, cut);
 }
 
 std::int64_t Surfaces::next_revision() {

@@ -20,6 +20,7 @@
 #include "viewer/surfaces/border_sharing.h"
 #include "viewer/surfaces/edges_beside.h"
 #include "viewer/surfaces/mask_editor.h"
+#include "viewer/surfaces/motions.h"
 #include "viewer/surfaces/section_faults.h"
 
 namespace kontur::viewer {
@@ -80,6 +81,7 @@ struct Surface {
     ImageReport image;                                  ///< what became of the image, when finished
     std::shared_ptr<const TriangleMesh> without_image;  ///< what the contours alone make; null where no image was used
     std::shared_ptr<const MaskEdit> corrected;          ///< of a mask to be corrected; null else
+    std::optional<int> time;                            ///< of a structure that moves: it is its surface at this time alone
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.
@@ -91,6 +93,18 @@ struct SurfaceTask {
     std::shared_ptr<const StoredMask> mask{};  ///< that the contours correct; null: they are all there is
     StructureMask how{};                       ///< it is corrected
     std::uint64_t step = 0;                    ///< of the session that it comes with; a draft comes with the next one
+    /// Of contours of another time than the opened one the image to be asked; null: none is.
+    std::optional<std::shared_ptr<const Image>> image{};
+    /// Of a structure that moves: all of it. `set` then holds the contours of one time, and sections that stand for others.
+    std::optional<MotionTask> motion{};
+    int time = 0;  ///< of the contours of a structure that moves
+};
+
+/// A surface as it is seen at one time.
+struct ShownSurface {
+    std::int64_t revision = 0;
+    SurfaceStage stage = SurfaceStage::none;
+    std::shared_ptr<const TriangleMesh> mesh, without_image;
 };
 
 /// The closed lines, in mm, where a surface meets a plane.
@@ -99,6 +113,7 @@ using PlaneCutter = std::function<std::vector<std::vector<Vec3>>(const Plane& pl
 struct PlaneCutters {
     PlaneCutter surface;
     PlaneCutter without_image{};  ///< what the contours alone make; none where no image was used
+    std::optional<int> time{};    ///< of a structure that moves: these are its lines at this time alone
 };
 PlaneCutters cutters(const Surface& surface);
 
@@ -111,6 +126,8 @@ struct SurfaceListener {
     std::function<void(const std::string& text, std::optional<double> fraction)> status;
     /// How structures that touch lie to each other, as soon as that is found, or why it could not be.
     std::function<void(const std::vector<BorderPair>& pairs, const std::string& problem)> borders{};
+    /// A structure that moves, whenever there is more of it.
+    std::function<void(const std::shared_ptr<const Motion>&)> motion{};
 };
 
 /// A LiveEditor for each structure that has contours: surfaces follow the contours, previews at once, the finished ones when
@@ -119,7 +136,12 @@ struct SurfaceListener {
 /// that there are.
 class Surfaces {
 public:
-    explicit Surfaces(SurfaceListener listener) : listener_(std::move(listener)) {}
+    explicit Surfaces(SurfaceListener listener)
+        : listener_(std::move(listener)),
+          motions_([this] { return next_revision(); },
+                   [this](const std::shared_ptr<const Motion>& motion) {
+                       if (listener_.motion) listener_.motion(motion);
+                   }) {}
     ~Surfaces();
     Surfaces(const Surfaces&) = delete;
     Surfaces& operator=(const Surfaces&) = delete;
@@ -146,6 +168,11 @@ public:
 
     /// The last surface of every structure that has had one.
     std::map<Id, std::shared_ptr<const Surface>> all() const;
+    /// What is seen of each structure at a time: of one that moves its surface there, as far as it has been made.
+    std::map<Id, ShownSurface> at(int time) const;
+    /// Structures that move, at all times.
+    Motions& motions() { return motions_; }
+    const Motions& motions() const { return motions_; }
 
 private:
     /// A finished surface as it was fitted, before borders are shared.
@@ -180,6 +207,7 @@ private:
     void hear(Id structure, std::uint64_t edit, const EditorUpdate& update);
     void hear_ahead(Id structure, std::uint64_t edit, const SurfaceBand& band);
     std::int64_t next_revision();
+    std::shared_ptr<const Image> image_of(const SurfaceTask& task) const;
     void show_progress(Id structure, std::uint64_t edit, const EditorUpdate& update);
     void outdate_locked(Id structure);
     void publish_locked(Surface surface);
@@ -215,7 +243,8 @@ private:
     std::deque<SurfaceTask> later_;
     Retired retired_;                   ///< not needed any more; an editor's own thread cannot end it
     std::map<Id, Follower> followers_;  ///< their threads use all above
-    std::thread sharing_thread_;        ///< last: it does, too
+    std::thread sharing_thread_;       ///< it does, too
+    Motions motions_;                   ///< last: its thread does
 };
 
 }  // namespace kontur::viewer

@@ -55,8 +55,8 @@ bool Surfaces::hand_over(const SurfaceTask& task, const Alone& alone) {
     const std::scoped_lock lock(mutex_);
     Follower& follower = followers_[task.structure];
     if (follower.tasks.size() != 1 || follower.is_outdated) return false;
-    if (alone.surface.stage != SurfaceStage::finished) return alone_.erase(task.structure), false;
-    alone_[task.structure] = {alone.surface, alone.function, task.smoothing, image_};
+    if (alone.surface.stage != SurfaceStage::finished || task.motion) return alone_.erase(task.structure), false;
+    alone_[task.structure] = {alone.surface, alone.function, task.smoothing, image_of(task)};
     const bool is_last = later_.empty() && std::all_of(followers_.begin(), followers_.end(), [&](const auto& other) {
                              return other.first == task.structure || !other.second.is_working;
                          });

@@ -19,9 +19,9 @@ constexpr double kTolerance = 0.02;             // of the fast function's values
 constexpr double kSmallValue = 5e-3;            // in the smallest spacing: a point with less is on the surface
 constexpr int kMostSteps = 8;
 constexpr double kSureStep = 0.1;  // of an edge: after one that is longer the point is looked at again
-// What the lattice shows of an edge is believed where its values bend by no more than a share of their slope, along all axes at
-// both ends, and the cubic through four of them leaves the chord by no more than a share of the edge. Half the first share
-// leaves twice as many sums; twice as much misses by up to half again as much.
+// What the lattice shows of an edge is believed where its values bend by no more than a share of their slope, along all axes
+// at both ends, and the cubic through four of them leaves the chord by no more than a share of the edge. Half the first
+// share leaves twice as many sums; twice as much misses by up to half again as much.
 constexpr double kStraight = 0.2, kSureCubic = 0.025;
 
 /// A lattice edge on which f changes its sign.
@@ -56,8 +56,9 @@ public:
         }
     }
 
-    /// Points and normals of the edges about which the lattice knows enough: a cubic along the edge, differences at its ends.
-    /// Other edges are left to `settle_at_once`: between slices that are far apart, or in thin sheets, the values bend.
+    /// Points and normals of the edges about which the lattice knows enough: a cubic along the edge, differences at its
+    /// ends. Other edges are left to `settle_at_once`: between slices that are far apart, or in thin sheets, the values
+    /// bend.
     void settle_by_lattice() {
         mesh_.normals.resize(mesh_.points.size());
         std::erase_if(edges_, [&](const CutEdge& edge) {
@@ -70,6 +71,17 @@ public:
             mesh_.normals[edge.point] = gradient_mm(*low + *fraction * (*high - *low));
             return true;
         });
+    }
+
+    /// Normals of the points that linear interpolation placed, from what values are known around them.
+    void settle_roughly() {
+        for (const CutEdge& edge : edges_) {
+            Index3 to = edge.from;
+            to[edge.axis] += 1;
+            const Vec3 low = rough_differences(edge.from), high = rough_differences(to);
+            mesh_.normals[edge.point] = gradient_mm(low + edge.fraction() * (high - low));
+        }
+        edges_.clear();
     }
 
     /// Moves the points by one step of Newton's method along their edges, with values and normals from where linear
@@ -170,7 +182,8 @@ private:
         Index3 before = edge.from, behind = edge.from;
         before[edge.axis] -= 1;
         behind[edge.axis] += 2;
-        const double v0 = lattice_.value(before), v1 = edge.zero.low_value, v2 = edge.zero.high_value, v3 = lattice_.value(behind);
+        const double v0 = lattice_.value(before), v1 = edge.zero.low_value, v2 = edge.zero.high_value,
+                     v3 = lattice_.value(behind);
         if (!std::isfinite(v0) || !std::isfinite(v3)) return std::nullopt;
         const double chord = kept_off_ends(edge.fraction());
         double t = chord;
@@ -196,6 +209,23 @@ private:
         }
         const double most = kStraight * norm(slope);
         return std::isfinite(most) && norm(bend) <= most ? std::optional(slope) : std::nullopt;
+    }
+
+    /// The slope per index at a lattice point, on one side of it where nothing else is known; 0 along an axis without.
+    Vec3 rough_differences(const Index3& at) const {
+        const double here = lattice_.value(at);
+        Vec3 slope;
+        for (int axis = 0; axis < 3; ++axis) {
+            Index3 low = at, high = at;
+            low[axis] -= 1;
+            high[axis] += 1;
+            double before = lattice_.value(low), behind = lattice_.value(high);
+            const bool is_between = std::isfinite(before) && std::isfinite(behind);
+            if (!std::isfinite(before)) before = here;
+            if (!std::isfinite(behind)) behind = here;
+            slope[axis] = (is_between ? 0.5 : 1.0) * (behind - before);
+        }
+        return slope;
     }
 
     /// A gradient per mm from one per index.
@@ -243,6 +273,14 @@ TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, c
     builder.settle_vertices(function, work);
     work.report("polygonize", 0.6);
     builder.find_gradients(function, work);
+    return builder.finish();
+}
+
+TriangleMesh polygonize(const SurfaceLattice& surface) {
+    MeshBuilder builder(surface);
+    for (const Index3& cell : surface.cells) builder.add_cell(cell);
+    builder.settle_by_lattice();
+    builder.settle_roughly();
     return builder.finish();
 }
 

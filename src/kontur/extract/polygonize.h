@@ -17,12 +17,16 @@ TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& f
 /// How near to where f vanishes points come, and to its gradient normals.
 enum class MeshAccuracy {
     of_a_file,    ///< as said above
-    of_a_screen,  ///< from the lattice's values alone where they are straight: 99 of 100 points within a tenth of the spacing
-                  ///< (half of them within a three-hundredth), and 99 of 100 normals within six degrees
+    of_a_screen,  ///< from the lattice's values alone where they are straight: 99 of 100 points within a tenth of the
+                  ///< spacing (half of them within a three-hundredth), and 99 of 100 normals within six degrees
 };
 
 /// The same with a function that may have been prepared for the surface by evaluating it there.
 TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Work& work = {},
                         MeshAccuracy accuracy = MeshAccuracy::of_a_file);
+
+/// The same from the lattice's values alone, for a function that is not there to be evaluated. Where values bend, points
+/// are where linear interpolation puts them.
+TriangleMesh polygonize(const SurfaceLattice& surface);
 
 }  // namespace kontur

@@ -38,4 +38,7 @@ std::vector<std::string> leave_out_repetitions(ContourSet& set);
 /// (leave_out_lines), then those that repeat others (leave_out_repetitions). Returns the sentences of both.
 std::vector<std::string> check_and_tidy(ContourSet& set);
 
+/// The same for contours of any number of moments; a contour of another moment is no repetition.
+std::vector<std::string> check_and_tidy_moments(ContourSet& set);
+
 }  // namespace kontur

@@ -78,10 +78,10 @@ export class App {
   }
 
   private lay(): void {
-    const { toolbar, panel } = this.controls;
+    const { toolbar, panel, timeStrip } = this.controls;
     const stage = this.stage.panes.element;
     stage.append(this.server.notices.element);
-    document.body.append(toolbar.element, stage, panel.element, this.server.status.element, this.startPage.element);
+    document.body.append(toolbar.element, stage, timeStrip.element, panel.element, this.server.status.element, this.startPage.element);
   }
 
   private isLostByLeaving(): boolean {
@@ -116,6 +116,8 @@ export class App {
         return project.apply(event);
       case "surface":
         return project.setSurface(event);
+      case "motion":
+        return project.setMotion(event);
       case "borders":
         return project.setBorderPairs(event.pairs);
       case "outlines":
@@ -129,7 +131,8 @@ export class App {
     }
   }
 
-  private showOutlines({ structure, revision, views }: Outlines): void {
+  private showOutlines({ structure, revision, views, time }: Outlines): void {
+    if (time !== undefined && time !== this.models.navigation.time) return; // of what moves, and of another time
     for (const { view, plane, lines, without_image } of views)
       this.stage.views.get(view as ViewName)?.showOutlines(structure, revision, plane, lines, without_image);
   }

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { BorderPair, Borders, Changed, Contour, Hand, History, Session, Structure, Surface, UseImage } from "../net/protocol";
+import type { BorderPair, Borders, Changed, Contour, CycleFrames, Hand, History, Motion, Session, Structure, Surface, UseImage } from "../net/protocol";
 import { Emitter } from "./emitter";
 
-type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft" | "borders" | "image" | "refused";
+type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft" | "borders" | "image" | "refused" | "time" | "motions";
+
+/** Something of one of the image's volumes in time; without a time of the one that was opened. */
+export interface InTime {
+  readonly time?: number | null | undefined;
+}
 
 export interface Selection {
   contour: number;
@@ -15,6 +20,11 @@ export class Project extends Emitter<Topic> {
   readonly structures = new Map<number, Structure>();
   readonly contours = new Map<number, Contour>();
   readonly surfaces = new Map<number, Surface>();
+  /** Of structures that were drawn at several times of the image. */
+  readonly motions = new Map<number, Motion>();
+  cycleFrames: CycleFrames = null;
+  private seenTime = 0;
+  private ownTime = 0;
   history: History = { undo: null, redo: null };
   borders: Borders = { shared: false, rules: [] };
   /** Of structures that touch. */
@@ -31,6 +41,9 @@ export class Project extends Emitter<Topic> {
     this.structures.clear();
     this.contours.clear();
     this.surfaces.clear();
+    this.motions.clear();
+    for (const motion of session.motions) this.motions.set(motion.structure, motion);
+    this.cycleFrames = session.cycle_frames;
     for (const structure of session.structures) this.structures.set(structure.id, structure);
     for (const contour of session.contours) this.contours.set(contour.id, contour);
     for (const surface of session.surfaces) this.surfaces.set(surface.structure, surface);
@@ -40,7 +53,7 @@ export class Project extends Emitter<Topic> {
     this.useImage = session.use_image;
     this.draftContour = null;
     this.keepReferencesValid();
-    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders", "image");
+    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders", "image", "motions");
   }
 
   setBorderPairs(pairs: BorderPair[]): void {
@@ -48,11 +61,12 @@ export class Project extends Emitter<Topic> {
     this.emit("borders");
   }
 
-  apply({ structures, contours, history, borders, use_image }: Changed): void {
+  apply({ structures, contours, history, borders, use_image, cycle_frames }: Changed): void {
     for (const structure of structures?.set ?? []) this.setStructure(structure);
     for (const id of structures?.removed ?? []) {
       this.structures.delete(id);
       this.surfaces.delete(id);
+      this.motions.delete(id);
     }
     for (const contour of contours?.set ?? []) {
       const goesOver = this.contours.has(contour.id) && this.contours.get(contour.id)!.structure !== contour.structure;
@@ -63,9 +77,10 @@ export class Project extends Emitter<Topic> {
     this.history = history;
     this.borders = borders ?? this.borders;
     this.useImage = use_image ?? this.useImage;
+    if (cycle_frames !== undefined) this.cycleFrames = cycle_frames;
     this.draftContour = null;
     this.keepReferencesValid();
-    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders", "image");
+    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders", "image", "motions");
   }
 
   /** In the order of their making, whatever was deleted and taken back. */
@@ -87,6 +102,70 @@ export class Project extends Emitter<Topic> {
     const keepsFigures = surface.stage === "preview" || surface.stage === "outdated";
     this.surfaces.set(surface.structure, keepsFigures ? { ...before, ...surface } : surface);
     this.emit(surface.revision === before?.revision ? "stages" : "surfaces");
+  }
+
+  setMotion(motion: Motion): void {
+    if (!this.structures.has(motion.structure)) return;
+    const before = this.motions.get(motion.structure);
+    if (motion.revisions.length === 0) this.motions.delete(motion.structure);
+    else this.motions.set(motion.structure, motion);
+    const isSeenAnew = before?.revisions[this.seenTime] !== motion.revisions[this.seenTime];
+    this.emit("motions", ...(isSeenAnew ? (["surfaces"] as const) : []));
+  }
+
+  /** Which of the image's volumes in time is seen, and which one was opened. */
+  setTime(time: number, ownTime: number): void {
+    if (time === this.seenTime && ownTime === this.ownTime) return;
+    [this.seenTime, this.ownTime] = [time, ownTime];
+    this.emit("time");
+  }
+
+  get time(): number {
+    return this.seenTime;
+  }
+
+  /** As calls have it: what is made now is made for the time that is seen; null for the one that was opened. */
+  get timeOfNew(): number | null {
+    return this.seenTime === this.ownTime ? null : this.seenTime;
+  }
+
+  timeOf({ time }: InTime): number {
+    return time ?? this.ownTime;
+  }
+
+  /** Whether it is of the time that is seen. */
+  isOfTime(contour: InTime): boolean {
+    return this.timeOf(contour) === this.seenTime;
+  }
+
+  /** Of the surface that is seen of a structure at a time. */
+  revisionAt(structure: number, time = this.seenTime): number {
+    const surface = this.surfaces.get(structure);
+    const made = this.motions.get(structure)?.revisions[time] ?? 0;
+    const own = surface?.revision ?? 0;
+    return made === 0 || (surface?.time === time && own > made) ? own : made;
+  }
+
+  /** The surface with its figures, those of the time that is seen where the structure moves. */
+  seenSurface(structure: number): Surface | undefined {
+    const surface = this.surfaces.get(structure);
+    const motion = this.motions.get(structure);
+    if (!surface || (!motion && surface.time === undefined)) return surface;
+    const { conflicts, faults, residual, edges_beside, volume_ml, ...rest } = surface;
+    const isSeen = surface.time === this.seenTime;
+    const volume = motion?.curve?.volumes_ml[this.seenTime] ?? (isSeen ? volume_ml : undefined);
+    return {
+      ...rest,
+      ...(isSeen && conflicts && { conflicts }),
+      ...(isSeen && faults && { faults }),
+      ...(isSeen && residual && { residual }),
+      ...(volume !== undefined && { volume_ml: volume }),
+      warnings: [...(isSeen ? (surface.warnings ?? []) : []), ...(motion?.warnings ?? [])],
+    };
+  }
+
+  seenSurfaces(): Surface[] {
+    return [...this.surfaces.keys()].map((structure) => this.seenSurface(structure)!);
   }
 
   /** The contour as the pointer holds it just now, instead of the stored one. */
@@ -125,7 +204,17 @@ export class Project extends Emitter<Topic> {
     return contour.visible && (this.structures.get(contour.structure)?.visible ?? false);
   }
 
+  /** Those of the time that is seen. */
   shownContours(): Contour[] {
+    return this.allShown().filter((contour) => this.isOfTime(contour));
+  }
+
+  /** Those of other times, which are seen faintly and are not edited. */
+  faintContours(): Contour[] {
+    return this.allShown().filter((contour) => !this.isOfTime(contour));
+  }
+
+  private allShown(): Contour[] {
     return [...this.contours.keys()].map((id) => this.contour(id)!).filter((contour) => this.isShown(contour));
   }
 

@@ -39,6 +39,14 @@ export interface MeshHeader extends CodedMesh {
   distance_step_mm: number;
 }
 
+export interface MeshExtras {
+  widths?: boolean;
+  origins?: boolean;
+  farFrom?: number | undefined;
+  /** Of the image; the one that was opened where none is given. */
+  time?: number | undefined;
+}
+
 /** Requests for bulk data below `/api/`. One that is aborted costs the server nothing more. */
 export class Http {
   /** Names this load of the page: a later slice overtakes an earlier one of the same view of the same page only. */
@@ -48,6 +56,9 @@ export class Http {
 
   /** The session that the page shows: requests for another one are refused. */
   opening: string | null = null;
+
+  /** Of the image the volume that is seen: what moves is measured and exported there. Null: the one that was opened. */
+  time: number | null = null;
 
   constructor(private readonly token: string) {}
 
@@ -124,13 +135,18 @@ export class Http {
   }
 
   /** Where that is wanted with how sure it is at its points, who made it there, and how far they are from the surface of another structure. */
-  async mesh(structure: number, extras: { widths?: boolean; origins?: boolean; farFrom?: number | undefined } = {}): Promise<BinaryReply<MeshHeader>> {
+  async mesh(structure: number, extras: MeshExtras = {}): Promise<BinaryReply<MeshHeader>> {
     const query = new URLSearchParams({ coded: "1" });
+    if (extras.time !== undefined) query.set("time", String(extras.time));
     if (extras.widths) query.set("widths", "1");
     if (extras.origins) query.set("origins", "1");
     if (extras.farFrom !== undefined) query.set("far_from", String(extras.farFrom));
     if (this.link.isSlow) query.set("compressed", "1");
     return new BinaryReply(await this.timed(await this.request(`mesh/${structure}?${query}`)));
+  }
+
+  private atTime(): { time?: string } {
+    return this.time === null ? {} : { time: String(this.time) };
   }
 
   /** The bytes of a reply. */
@@ -143,19 +159,22 @@ export class Http {
 
   /** The file and the name that the server proposes for it. */
   async export(name: string, structure: number | null, signal?: AbortSignal): Promise<{ blob: Blob; name: string }> {
-    const path = `export/${name}` + (structure === null ? "" : `?structure=${structure}`);
+    const query = new URLSearchParams({ ...(structure !== null && { structure: String(structure) }), ...this.atTime() });
+    const path = `export/${name}` + (query.size > 0 ? `?${query}` : "");
     const reply = await this.request(path, { signal: signal ?? null }, "The structure has been removed meanwhile: there is nothing to export.");
     const proposed = /filename="([^"]+)"/.exec(reply.headers.get("Content-Disposition") ?? "");
     return { blob: await reply.blob(), name: proposed?.[1] ?? name };
   }
 
   async statistics(signal: AbortSignal): Promise<Statistics> {
-    return (await (await this.request("statistics", { signal })).json()) as Statistics;
+    return (await (await this.request(`statistics?${new URLSearchParams(this.atTime())}`, { signal })).json()) as Statistics;
   }
 
   async compare(first: number, second: number, signal: AbortSignal): Promise<Comparison> {
     const gone = "One of the two has been removed meanwhile: they cannot be compared.";
-    return (await (await this.request(`compare?first=${first}&second=${second}`, { signal }, gone)).json()) as Comparison;
+    return (await (
+      await this.request(`compare?${new URLSearchParams({ first: String(first), second: String(second), ...this.atTime() })}`, { signal }, gone)
+    ).json()) as Comparison;
   }
 
   async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}, signal?: AbortSignal): Promise<ImportReply> {

@@ -7,7 +7,7 @@ import { Keyboard } from "../ui/keyboard";
 import { NearDrawings } from "../ui/near_drawings";
 import { Panel } from "../ui/panel";
 import { SecondImageCard } from "../ui/second_image_card";
-import { TimeCard } from "../ui/time_card";
+import { TimeStrip } from "../ui/time_strip";
 import { Toolbar } from "../ui/toolbar";
 import { PageActions } from "./actions";
 import { Hints } from "./hints";
@@ -32,6 +32,7 @@ export class Controls {
   readonly toolbar: Toolbar;
   readonly panel: Panel;
   readonly keyboard: Keyboard;
+  readonly timeStrip: TimeStrip;
   readonly near: NearDrawings;
   readonly identity = new IdentityCard();
   readonly secondCard: SecondImageCard;
@@ -51,6 +52,11 @@ export class Controls {
     this.toolbar = this.madeToolbar();
     this.panel = this.madePanel();
     this.keyboard = this.madeKeyboard();
+    this.timeStrip = new TimeStrip({
+      ...this.shared(),
+      call: services.editor.make,
+      proposeHere: this.inSight(() => void services.editor.proposals.here(stage.panes.active)),
+    });
     new Dividers(stage.panes.element, models.sizes);
   }
 
@@ -79,7 +85,7 @@ export class Controls {
   }
 
   private madePanel(): Panel {
-    const { editor, stage, models } = this.services;
+    const { editor, stage } = this.services;
     return new Panel({
       ...this.shared(),
       ...this.actions,
@@ -87,7 +93,6 @@ export class Controls {
       call: editor.make,
       identity: this.identity.element,
       near: this.near.element,
-      time: new TimeCard(models.navigation, stage.cine).element,
       secondImage: this.secondCard.element,
       suggest: this.inSight(() => void this.actions.suggest()),
       goTo: (p) => stage.panes.goTo(p),

@@ -48,8 +48,9 @@ export class Panes {
     this.navigation.goTo(p, this.screens());
   }
 
-  /** In the view that looks along it; where there is none, the free one is turned. */
+  /** At its time, in the view that looks along it; where there is none, the free one is turned. */
   show(contour: InPlane): void {
+    this.navigation.setTime(contour.time ?? this.navigation.ownTime);
     let view = viewAlong(contour, this.navigation);
     if (!view) {
       view = "oblique";

@@ -104,7 +104,7 @@ function paintWords(
   for (const { id, name, color } of structures) {
     context.fillStyle = color;
     context.fillRect(10, y - 11, 12, 12);
-    const volume = project.surfaces.get(id)?.volume_ml;
+    const volume = project.seenSurface(id)?.volume_ml;
     word(context, volume === undefined ? name : `${name}  ·  ${volumeText(volume)}`, [30, y], "#ffffff", width - 40);
     y += LINE;
   }

@@ -44,7 +44,8 @@ export class Stage {
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, { ...shared, appearance: models.appearance }));
     this.surface = new SurfaceView({ ...shared, goTo: (p) => this.panes.goTo(p), openWindow: services.openWindow });
     this.panes = new Panes(models.navigation, this.views, this.surface);
-    this.cine = new Cine(models.navigation, () => Promise.all([...this.views.values()].map((view) => view.idle())));
+    const shown = () => Promise.all([...[...this.views.values()].map((view) => view.idle()), this.surface.idle()]);
+    this.cine = new Cine(models.navigation, shown);
     this.value = new ValueAtPointer(shared);
     this.pointers = new Pointers(() => void server.notices.show("info", PEN_DRAWS));
     this.keyPointer = new KeyPointer({

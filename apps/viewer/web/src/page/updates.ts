@@ -18,10 +18,20 @@ export interface UpdateParts {
 
 /** From now on each part of the page follows the changes of those that it shows or keeps. */
 export function connectUpdates(parts: UpdateParts): void {
+  followTime(parts);
   updateViews(parts);
   updateSurface(parts);
   updateHints(parts);
   updateKeepers(parts);
+}
+
+/** First: all others look up what is of the time that is seen. */
+function followTime({ models, server }: UpdateParts): void {
+  const { navigation, project } = models;
+  navigation.on(["time"], () => {
+    project.setTime(navigation.time, navigation.ownTime);
+    server.http.time = project.timeOfNew;
+  });
 }
 
 function updateViews({ models, editor, stage }: UpdateParts): void {
@@ -39,6 +49,7 @@ function updateViews({ models, editor, stage }: UpdateParts): void {
     ["surfaces"],
     each((view) => view.surfacesChanged()),
   );
+  project.on(["time"], paint);
   project.on(["selection"], paint);
   project.on(
     ["draft"],
@@ -61,9 +72,10 @@ function updateSurface({ models, editor, stage }: UpdateParts): void {
   const { navigation, project, theme, opacities } = models;
   const { surface } = stage;
   navigation.on(["planes"], () => surface.planesChanged());
-  project.on(["contours", "structures", "selection"], () => surface.contoursChanged());
+  project.on(["contours", "structures", "selection", "time"], () => surface.contoursChanged());
   project.on(["structures"], () => surface.restyle());
-  project.on(["surfaces"], () => surface.surfacesChanged());
+  project.on(["surfaces", "time"], () => surface.surfacesChanged());
+  project.on(["motions"], () => surface.motionsChanged());
   theme.on(["changed"], () => surface.themeChanged());
   opacities.on(["changed"], () => surface.restyle());
   editor.points.on(["points"], () => surface.pointsChanged());

@@ -99,7 +99,7 @@ export class SurfaceInput {
   /** One that the tool would take. */
   private pointBelow(event: PointerEvent): SinglePoint | null {
     const { editor } = this.services;
-    if (!editor.tool.grabsPoints || editor.isBare || editor.navigation.isAway) return null;
+    if (!editor.tool.grabsPoints || editor.isBare || editor.isOutOfTime) return null;
     const number = this.scene()?.pointAt(...this.placeOf(event), reachOf(event)) ?? null;
     return number === null ? null : (editor.points.shown()[number] ?? null);
   }

@@ -20,7 +20,8 @@ import type { Editor } from "../tools/editor";
 import type { SinglePoint } from "../tools/single_points";
 import { BAND_STOPS, bandColors, bandScale, DISTANCE_STOPS, distanceColors, ORIGIN_COLORS, originColors } from "./band";
 import { OrientationCube, SIDES, type ViewAxes } from "./cube";
-import type { Scene, ScenePoint } from "./scene";
+import { MeshFrames } from "./mesh_frames";
+import type { Scene, MeshData, ScenePoint } from "./scene";
 import { SurfaceInput } from "./surface_input";
 
 export interface SurfaceViewServices {
@@ -48,6 +49,8 @@ export class SurfaceView {
   private readonly message = el("div", { class: "pane-message" });
   private readonly fetches = new Map<number, Latest<void>>();
   private readonly shownRevisions = new Map<number, number>();
+  private readonly frames = new MeshFrames();
+  private readonly ahead = new Latest<void>(() => this.fetchAhead());
   private scene: Scene | null = null;
   private showsBand = false;
   private showsOrigins = false;
@@ -187,19 +190,61 @@ export class SurfaceView {
     if (!this.scene) return;
     for (const id of this.scene.meshes) if (!this.hasSurface(id)) this.remove(id);
     this.compareAgain();
-    for (const surface of project.surfaces.values()) {
-      if (surface.stage === "none" || this.shownRevisions.get(surface.structure) === surface.revision) continue;
-      this.fetchesOf(surface.structure).send();
+    for (const { structure } of project.surfaces.values()) {
+      const revision = project.revisionAt(structure);
+      if (!this.hasSurface(structure) || this.shownRevisions.get(structure) === revision) continue;
+      const kept = this.frames.get(structure, project.time, revision);
+      if (kept) this.show(structure, revision, kept);
+      else this.fetchesOf(structure).send();
     }
     this.who.hidden = ![...project.surfaces.values()].some(({ correction }) => correction);
     this.band.hidden = ![...project.surfaces.values()].some(({ uncertainty }) => uncertainty?.known);
-    this.scene.setMarks(markedPlaces(project.surfaces.values()));
+    this.scene.setMarks(markedPlaces(project.seenSurfaces()));
     this.restyle();
     this.showHint();
   }
 
+  /** Fetches the surfaces of other times, the next ones first, one after the other. */
+  motionsChanged(): void {
+    if (this.scene) this.ahead.send();
+  }
+
+  /** Settles when the surfaces that are seen have come. */
+  async idle(): Promise<void> {
+    await Promise.all([...this.fetches.values()].map((fetches) => fetches.idle()));
+  }
+
+  private async fetchAhead(): Promise<void> {
+    for (let next = this.nextAhead(); next; next = this.nextAhead()) {
+      await this.idle();
+      try {
+        const reply = await this.services.http.mesh(next.structure, { time: next.time });
+        if (reply.header.stage === "none") return;
+        this.frames.keep(next.structure, next.time, reply.header.revision, meshOf(reply));
+        if (reply.header.revision !== next.revision) return; // news of it are on their way
+      } catch {
+        return; // it is asked for when it is to be seen
+      }
+    }
+  }
+
+  private nextAhead(): { structure: number; time: number; revision: number } | null {
+    const { project } = this.services;
+    if (!this.frames.hasRoom) return null;
+    for (const { structure, revisions, finished } of project.motions.values()) {
+      if (!finished || !project.structures.get(structure)?.visible) continue;
+      for (let n = 0; n < revisions.length; ++n) {
+        const time = (project.time + n) % revisions.length;
+        const revision = project.revisionAt(structure, time);
+        if (revisions[time]! > 0 && !this.frames.has(structure, time, revision)) return { structure, time, revision };
+      }
+    }
+    return null;
+  }
+
   /** Of a server that has started anew, and counts revisions from 1. */
   forgetRevisions(): void {
+    this.frames.clear();
     this.shownRevisions.clear();
   }
 
@@ -210,7 +255,8 @@ export class SurfaceView {
   }
 
   private hasSurface(structure: number): boolean {
-    return (this.services.project.surfaces.get(structure)?.stage ?? "none") !== "none";
+    const { project } = this.services;
+    return project.motions.has(structure) || (project.surfaces.get(structure)?.stage ?? "none") !== "none";
   }
 
   private remove(id: number): void {
@@ -228,21 +274,25 @@ export class SurfaceView {
     if (!this.hasSurface(structure)) return; // it went while another mesh was on its way
     try {
       const farFrom = this.compared?.structure === structure ? this.compared.other : undefined;
-      const reply = await this.services.http.mesh(structure, { widths: this.showsBand, origins: this.showsOrigins, farFrom });
+      const { project } = this.services;
+      const { time } = project;
+      const at = project.motions.has(structure) ? { time } : {};
+      const reply = await this.services.http.mesh(structure, { widths: this.showsBand, origins: this.showsOrigins, farFrom, ...at });
       if (reply.header.stage === "none" || !this.hasSurface(structure)) return; // it went meanwhile
-      const { header } = reply;
       const colors = this.compared ? this.distanceColorsOf(reply) : (this.originColorsOf(reply) ?? this.bandColorsOf(reply));
-      this.scene?.setMesh(structure, {
-        positions: positionsOf(header, reply.u8("positions")),
-        normals: normalsOf(header, reply.u8("normals")),
-        triangles: trianglesOf(header, reply.u8("triangles")),
-        colors,
-      });
-      this.shownRevisions.set(structure, reply.header.revision);
-      this.restyle();
+      const mesh = { ...meshOf(reply), colors };
+      if (project.motions.has(structure) && !colors) this.frames.keep(structure, time, reply.header.revision, mesh);
+      if (time === project.time) this.show(structure, reply.header.revision, mesh);
+      else this.surfacesChanged();
     } catch (error) {
       if (!(error instanceof ServerError && error.kind === "cancelled")) this.services.failed(error);
     }
+  }
+
+  private show(structure: number, revision: number, mesh: MeshData): void {
+    this.scene?.setMesh(structure, mesh);
+    this.shownRevisions.set(structure, revision);
+    this.restyle();
   }
 
   /** Of how sure the surface is, where that is wanted and known; a preview has none. */
@@ -292,6 +342,7 @@ export class SurfaceView {
     this.compared = compared;
     this.band.setAttribute("aria-pressed", String(band));
     this.scale.hidden = true;
+    this.frames.clear();
     this.shownRevisions.clear();
     this.surfacesChanged();
   }
@@ -349,6 +400,15 @@ export class SurfaceView {
     const box = this.element.getBoundingClientRect();
     this.scene?.resize(box.width, box.height);
   }
+}
+
+function meshOf(reply: BinaryReply<MeshHeader>): MeshData {
+  const { header } = reply;
+  return {
+    positions: positionsOf(header, reply.u8("positions")),
+    normals: normalsOf(header, reply.u8("normals")),
+    triangles: trianglesOf(header, reply.u8("triangles")),
+  };
 }
 
 function hasWebGl(): boolean {

@@ -170,6 +170,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   private begun(screen: Screen, kind: StretchKind): Sketch {
     const structure = this.project.activeStructure?.id ?? 0;
     this.sketch ??= new Sketch(planeOf(screen), structure, kind);
+    if (this.sketch.time === undefined) this.sketch.time = this.project.timeOfNew;
     this.sketch.setImage(this.image);
     this.leftSketch = null;
     this.project.select(null);
@@ -188,7 +189,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   }
 
   path(sketch: Sketch, control: readonly SketchPoint[], closed = false): Promise<PathResult> {
-    return this.services.call("path", { plane: this.pixelPlane(sketch), control, closed });
+    return this.services.call("path", { plane: this.pixelPlane(sketch), control, closed, ...(typeof sketch.time === "number" && { time: sketch.time }) });
   }
 
   private pointsChanged(): void {
@@ -267,6 +268,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   /** Gives what is finished to the server; it is seen as `line` meanwhile. */
   send(sketch: Sketch, line = sketch.finishedLine()): void {
     this.leftSketch = null;
+    if (sketch.time === undefined) sketch.time = this.project.timeOfNew;
     this.outbox.add(sketch, line);
     this.changed();
   }

@@ -28,19 +28,19 @@ export const editTool: Tool<"edit"> = {
   grabsPoints: true,
   looksAround: true,
   hint: ({ project }, hover) => (hover && "outline" in hover ? OUTLINE : project.selection ? SELECTED : LOOKING),
-  press: ({ edits, navigation, outlines, planeLines, points }, place, modifiers) => {
+  press: ({ edits, isOutOfTime, outlines, planeLines, points }, place, modifiers) => {
     const { view, screen, pointer, hit } = place;
-    if (navigation.isAway) return planeLines.press(view, screen, pointer);
+    if (isOutOfTime) return planeLines.press(view, screen, pointer);
     const point = points.at(place);
     if (point) return points.grab(onSlice(screen), pointer, point);
     if (hit) return edits.press(screen, pointer, hit, modifiers);
     const isHandle = planeLines.at(view, screen, pointer)?.on === "turn";
     return (isHandle ? null : outlines.press(view, screen, pointer)) ?? planeLines.press(view, screen, pointer);
   },
-  hover: ({ navigation, outlines, planeLines, points }, place) => {
+  hover: ({ isOutOfTime, outlines, planeLines, points }, place) => {
     const { view, screen, pointer, hit } = place;
     const line = planeLines.at(view, screen, pointer);
-    if (navigation.isAway) return line && { line, view };
+    if (isOutOfTime) return line && { line, view };
     const point = points.at(place);
     if (point) return { point, view };
     if (hit) return { contour: hit, view };
@@ -48,7 +48,7 @@ export const editTool: Tool<"edit"> = {
     if (outline) return { outline, view };
     return line && { line, view };
   },
-  remove: ({ navigation, points }) => !navigation.isAway && points.removeSelected(),
+  remove: ({ isOutOfTime, points }) => !isOutOfTime && points.removeSelected(),
   leave: ({ points }) => points.deselect(),
   cursor: usualCursor,
   paint: (painter, { outlines, project }, view, hover) => {

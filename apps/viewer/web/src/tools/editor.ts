@@ -98,23 +98,32 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     return this.tool.press(this, this.place(view, screen, pointer), modifiers);
   }
 
-  /** Whether the tool would edit at another time than that of the contours. Says so. */
+  /** Whether the tool would edit what belongs to another time than the one that is seen. Says so. */
   mayNotEdit(): boolean {
     return !this.tool.looksAround && this.isAnotherTime();
   }
 
-  /** What a button asks for: as keys do, it changes nothing that is drawn while another time is seen. */
+  /** What a button asks for: as keys do, it changes nothing that belongs to another time than the one that is seen. */
   readonly make: Maker = (name, args) => {
     if (changesDrawing(name, args) && this.isAnotherTime()) return this.project.refused();
     this.edits.make(name, args);
   };
 
-  /** Whether another time is seen than the one that contours belong to: they are not edited there. Says so, and offers to go there. */
+  /** Whether what is worked on belongs to another time than the one that is seen: what is being drawn, or a mask, which has one. */
+  get isOutOfTime(): boolean {
+    const { navigation, project, drawing } = this;
+    if (drawing.sketch) return project.timeOf(drawing.sketch) !== navigation.time;
+    return navigation.isAway && project.activeStructure?.mask !== undefined;
+  }
+
+  /** The same. Says so, and offers to go there. */
   isAnotherTime(): boolean {
-    const { navigation } = this;
-    if (!navigation.isAway) return false;
-    const own = navigation.ownTime;
-    this.services.tell(`Contours belong to frame ${own + 1}; frame ${navigation.time + 1} is only to be looked at.`, {
+    if (!this.isOutOfTime) return false;
+    const { navigation, project, drawing } = this;
+    const own = drawing.sketch ? project.timeOf(drawing.sketch) : navigation.ownTime;
+    const what = drawing.sketch ? "What you are drawing" : project.activeStructure!.name;
+    const now = drawing.sketch ? `this is frame ${navigation.time + 1}` : `in frame ${navigation.time + 1} it is only to be looked at`;
+    this.services.tell(`${what} belongs to frame ${own + 1}; ${now}.`, {
       label: `Go to frame ${own + 1}`,
       act: () => navigation.setTime(own),
     });
@@ -123,7 +132,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
 
   moved(view: ViewName, screen: Screen, pointer: Point2): void {
     this.pointer = { view, at: pointer };
-    const isIdle = this.navigation.isAway && !this.tool.looksAround;
+    const isIdle = this.isOutOfTime && !this.tool.looksAround;
     this.setHover(isIdle ? null : this.tool.hover(this, this.place(view, screen, pointer)));
   }
 

@@ -36,7 +36,7 @@ const SAME_SLICE_MM = 1e-3; // outlines of a slice that was shown before are not
 /** What of the outlines can be made a contour. Where the structure has one already, that one is to be changed, and not a second one laid over it. */
 export function freeOutlines({ plane, outlines }: ShownOutlines, project: Project, screen: Screen, step_mm: number): FreeOutline[] {
   if (Math.abs(heightOver(planeOf(screen), plane.origin)) > SAME_SLICE_MM) return [];
-  const drawn = [...project.contours.values()].filter((contour) => inView(contour, screen, step_mm));
+  const drawn = [...project.contours.values()].filter((contour) => project.isOfTime(contour) && inView(contour, screen, step_mm));
   return [...outlines].flatMap((outline) => {
     if (!project.structures.get(outline.structure)?.visible) return [];
     const contours = drawn.filter(({ structure }) => structure === outline.structure).map(({ points }) => points.map((p) => toScreen(screen, p)));

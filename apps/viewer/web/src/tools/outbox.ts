@@ -107,6 +107,7 @@ export class Outbox {
       ...(sketch.isOpen && { closed: false }),
       ...(sketch.inside && { inside: sketch.inside }),
       ...(sketch.origin !== "drawn" && { origin: sketch.origin }),
+      ...(typeof sketch.time === "number" && { time: sketch.time }),
     });
     return contour;
   }

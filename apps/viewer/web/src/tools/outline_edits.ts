@@ -88,7 +88,8 @@ export class OutlineEdits extends Edits {
     const line = sketch.line();
     this.drawing.showHand(line, isMoved ? line.filter(isMoved) : null);
     const { plane, structure, points, hole } = sketch;
-    this.drafts.send({ name: "contour.add", args: { structure, plane, control: points, ...(hole && { hole }) } });
+    const time = this.project.timeOfNew;
+    this.drafts.send({ name: "contour.add", args: { structure, plane, control: points, ...(hole && { hole }), ...(time !== null && { time }) } });
   }
 
   add(contour: Sketch): void {

@@ -47,6 +47,7 @@ export class Proposals extends Emitter<"proposal"> {
       ++this.suggestions;
       this.drop();
     });
+    project.on(["time"], () => this.drop());
     navigation.on(["planes"], () => this.dropOutOfSight());
   }
 
@@ -63,9 +64,27 @@ export class Proposals extends Emitter<"proposal"> {
     const step_mm = navigation.step(view);
     const plane = { ...from, origin: add(from.origin, scale(from.normal, steps * onward * step_mm)) };
     if (!this.goTo(plane, step_mm)) return services.tell("There is no slice further on in this direction.");
-    const drawn = project.contoursOf(structure.id).find((contour) => coincide(contour.plane, plane, step_mm / 2));
+    const drawn = this.drawnIn(structure.id, plane, step_mm);
     if (drawn) return this.pass(drawn, structure.name);
     await this.propose(structure.id, plane, selected);
+  }
+
+  /** Offers the outline on the view's slice at the time that is seen. */
+  async here(view: ViewName): Promise<void> {
+    const { project, navigation, services, drawing } = this;
+    if (drawing.sketch) return services.tell("Close the contour that you are drawing first (Enter), or leave it (Esc).");
+    const structure = project.activeStructure;
+    if (!structure || isHidden(structure.id, project, services)) return;
+    const { origin, u, v, normal } = navigation.plane(view);
+    const drawn = this.drawnIn(structure.id, { origin, u, v, normal }, navigation.step(view));
+    if (drawn) return this.pass(drawn, structure.name);
+    this.drop();
+    await this.propose(structure.id, { origin, u, v, normal });
+  }
+
+  private drawnIn(structure: number, plane: Plane, step_mm: number): Contour | undefined {
+    const { project } = this;
+    return project.contoursOf(structure).find((contour) => project.isOfTime(contour) && coincide(contour.plane, plane, step_mm / 2));
   }
 
   /** Turns a view to the plane on which a contour would tell most, and offers the expected outline there; once more: the next best. Returns the view. */
@@ -76,6 +95,8 @@ export class Proposals extends Emitter<"proposal"> {
     if (!structure || isHidden(structure.id, project, services)) return null;
     if (structure.mask)
       return (services.tell(`${structure.name} is a mask: look through its slices, and correct it where it is wrong. A says that one is right.`), null);
+    if (project.motions.has(structure.id))
+      return (services.tell(`${structure.name} moves: where to draw next is not told of that. Y proposes its outline on this slice.`), null);
     if (!project.surfaces.get(structure.id)?.uncertainty)
       return (services.tell(`Nothing is suggested before the surface of ${structure.name} is finished.`), null);
     if (this.skipped.structure !== structure.id) this.skipped = { structure: structure.id, planes: [] };
@@ -105,7 +126,7 @@ export class Proposals extends Emitter<"proposal"> {
   async propose(structure: number, plane: Plane, instead?: Contour): Promise<void> {
     this.asked = plane;
     try {
-      const { lines } = await this.services.call("outline", { structure, plane, snap: true });
+      const { lines } = await this.services.call("outline", { structure, plane, snap: true, ...this.atTime() });
       if (this.asked !== plane) return; // another one was asked for, or none is wanted any more
       const there = lines.filter((line) => line.length >= 3);
       const laid = instead?.points.map((p) => projected(plane, p));
@@ -120,9 +141,15 @@ export class Proposals extends Emitter<"proposal"> {
     }
   }
 
+  private atTime(): { time?: number } {
+    const time = this.project.timeOfNew;
+    return time === null ? {} : { time };
+  }
+
   /** The contours of the nearest parallel slice, laid into the plane. */
   private copied(structure: number, plane: Plane): Lines {
-    const parallel = this.project.contoursOf(structure).filter((contour) => contour.closed && areParallel(contour.plane, plane));
+    const { project } = this;
+    const parallel = project.contoursOf(structure).filter((contour) => project.isOfTime(contour) && contour.closed && areParallel(contour.plane, plane));
     const away = (contour: Contour) => Math.abs(heightOver(plane, contour.plane.origin));
     const nearest = parallel.reduce<Contour | null>((best, one) => (best && away(best) <= away(one) ? best : one), null);
     if (!nearest) return [];

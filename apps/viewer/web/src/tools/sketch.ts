@@ -15,6 +15,7 @@ export interface SavedSketch {
   isOpen?: boolean;
   inside?: Hand;
   origin?: Origin;
+  time?: number;
 }
 
 const SAVED_DIGITS = 9;
@@ -38,6 +39,8 @@ export class Sketch {
   /** Of an open line, where the structure lies; undefined: that is found out. */
   inside: Hand | undefined;
   origin: Origin = "drawn";
+  /** Of the image's volumes the one that it is drawn in; null: the one that was opened; undefined: that is not said yet. */
+  time: number | null | undefined;
   private image = 0; // whose edges wires follow from the last point on
   private undone: SketchPoint[][] = []; // what the points were before each removal, the latest last
 
@@ -188,7 +191,7 @@ export class Sketch {
   }
 
   saved(): SavedSketch {
-    const { plane, structure, kind, isUnsaved, redraws, hole, isOpen, inside, origin } = this;
+    const { plane, structure, kind, isUnsaved, redraws, hole, isOpen, inside, origin, time } = this;
     const points = this.points.map((point) => ({ ...point, at: rounded(point.at), ...(point.path && { path: point.path.map(rounded) }) }));
     return {
       plane,
@@ -201,10 +204,23 @@ export class Sketch {
       ...(isOpen && { isOpen }),
       ...(inside && { inside }),
       ...(origin !== "drawn" && { origin }),
+      ...(typeof time === "number" && { time }),
     };
   }
 
-  static from({ plane, structure, kind, points, isUnsaved = false, redraws, hole = false, isOpen = false, inside, origin = "drawn" }: SavedSketch): Sketch {
+  static from({
+    plane,
+    structure,
+    kind,
+    points,
+    isUnsaved = false,
+    redraws,
+    hole = false,
+    isOpen = false,
+    inside,
+    origin = "drawn",
+    time,
+  }: SavedSketch): Sketch {
     const sketch = new Sketch(plane, structure, kind, redraws);
     sketch.points = points;
     sketch.isUnsaved = isUnsaved;
@@ -212,6 +228,7 @@ export class Sketch {
     sketch.isOpen = isOpen;
     sketch.inside = inside;
     sketch.origin = origin;
+    sketch.time = time ?? null;
     return sketch;
   }
 

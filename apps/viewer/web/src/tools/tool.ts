@@ -27,6 +27,8 @@ export interface ToolContext {
   pushing: Pushing;
   points: SinglePoints;
   measuring: Measuring;
+  /** What is worked on belongs to another time than the one that is seen. */
+  isOutOfTime: boolean;
 }
 
 /** What the pointer would take. */
@@ -64,7 +66,7 @@ export interface Tool<Id extends string = string> {
   readonly movesPlanes?: boolean;
   /** It takes single points by the hand, on slices and in 3D. */
   readonly grabsPoints?: boolean;
-  /** It may be used where another time is seen than the one that contours belong to. */
+  /** It may be used where another time is seen than the one that what is worked on belongs to. */
   readonly looksAround?: boolean;
   /** Whether it is the tool to go on with this sketch. */
   resumes?(sketch: Sketch): boolean;

@@ -35,7 +35,7 @@ export interface CommandServices {
 export interface Command {
   readonly keys: readonly string[];
   readonly help?: readonly [HelpSection, ...HelpRow];
-  /** It changes contours, and so does nothing where another time is seen than theirs. Del and Backspace leave that to the tool. */
+  /** It changes what is drawn, and so does nothing where that belongs to another time than is seen. Del and Backspace leave that to the tool. */
   readonly edits?: boolean;
   run(page: CommandServices, isShifted: boolean): void;
 }
@@ -156,6 +156,12 @@ export const COMMANDS: readonly Command[] = [
     edits: true,
     help: ["Edit", "C, Shift + C", "propose the outline on the next, previous slice; Enter accepts, Esc drops it"],
     run: ({ editor, focused }, isShifted) => void editor.proposals.next(focused(), isShifted ? -1 : 1),
+  },
+  {
+    keys: ["y"],
+    edits: true,
+    help: ["Edit", "Y", "propose the outline on this slice, where nothing is drawn on it in this frame"],
+    run: ({ editor, focused }) => void editor.proposals.here(focused()),
   },
   {
     keys: ["w"],

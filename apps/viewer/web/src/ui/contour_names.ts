@@ -8,6 +8,8 @@ import type { ViewName } from "../net/protocol";
 /** A contour, or whatever else lies in a plane. */
 export interface InPlane {
   plane: Plane;
+  /** Of the image; absent: the one that was opened. */
+  time?: number;
 }
 
 /** The view whose unturned planes the contour is parallel to, on which of its slices and where along them it lies. */
@@ -27,8 +29,10 @@ export function placeOf({ plane: { normal, origin } }: InPlane, navigation: Navi
   return { view, slice, position: `${letter} ${coordinateText(Math.abs(origin[axis]!), step_mm)}` };
 }
 
-/** "Axial 51", as the list and the view's title have it; "Oblique 12.3" for planes of no view. */
+/** "Axial 51", as the list and the view's title have it; "Oblique 12.3" for planes of no view. With the frame where another one is seen. */
 export function contourName(contour: InPlane, navigation: Navigation): string {
   const { view, slice, position } = placeOf(contour, navigation);
-  return view ? `${navigation.title(view)} ${slice}` : `Oblique ${position}`;
+  const time = contour.time ?? navigation.ownTime;
+  const frame = time === navigation.time ? "" : `, frame ${time + 1}`;
+  return (view ? `${navigation.title(view)} ${slice}` : `Oblique ${position}`) + frame;
 }

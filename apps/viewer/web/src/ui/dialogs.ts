@@ -55,6 +55,12 @@ const EXPORTS: [string, [string, string, string][]][] = [
   ["Picture", [["picture.png", "PNG", ".png"]]],
 ];
 
+/** Of a structure that was drawn in several frames. */
+const OF_ALL_FRAMES: [string, string, string][] = [
+  ["masks.nii.gz", "Masks of all frames, NIfTI", ".nii.gz"],
+  ["volumes.csv", "Volumes", ".csv"],
+];
+
 /** One file with all structures, or one archive. Those of DICOM refer to the images. */
 const OF_ALL: [string, string, string][] = [
   ["labels.nii.gz", "Label map, NIfTI", ".nii.gz"],
@@ -126,6 +132,16 @@ export function openExport({ http, project, editor, hasDicom, snapshot, setLabel
       el("div", { class: "choices" }, ...files.map(([name, label, extension]) => entry(name, label, extension, chosen))),
     ),
   );
+  const frames = el(
+    "div",
+    { class: "export-group", "data-test": "export-frames" },
+    el("h3", {}, "All frames"),
+    el("p", { class: "fine" }, `It moves: its mask, surface and picture are those of frame ${project.time + 1}, which is seen.`),
+    el("div", { class: "choices" }, ...OF_ALL_FRAMES.map(([name, label, extension]) => entry(name, label, extension, chosen))),
+  );
+  const showFrames = () => void (frames.hidden = !project.motions.has(chosen() ?? 0));
+  structure.addEventListener("change", showFrames);
+  showFrames();
   const files = [...OF_ALL, ...(hasDicom() ? OF_ALL_IN_DICOM : [])];
   const all = el(
     "div",
@@ -152,6 +168,7 @@ export function openExport({ http, project, editor, hasDicom, snapshot, setLabel
     labels.element,
     el("label", { class: "field" }, "One structure", structure),
     ...groups,
+    frames,
     whole,
     status,
   );

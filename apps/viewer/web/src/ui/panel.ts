@@ -16,7 +16,6 @@ export interface PanelServices extends RowServices, ActionServices {
   identity: HTMLElement;
   /** What others have drawn on it. */
   near: HTMLElement;
-  time: HTMLElement;
   secondImage: HTMLElement;
   openStatistics(): void;
   /** Shows where to draw next. */
@@ -47,7 +46,6 @@ export class Panel {
     this.element.append(
       services.identity,
       services.near,
-      services.time,
       services.secondImage,
       el("div", { class: "panel-title" }, el("span", {}, "Structures"), add),
       this.list.filter,
@@ -59,7 +57,7 @@ export class Panel {
       new SmoothingSlider(services).element,
       this.quality,
     );
-    project.on(["structures", "contours", "selection", "surfaces", "stages", "refused"], () => this.update());
+    project.on(["structures", "contours", "selection", "surfaces", "stages", "refused", "time", "motions"], () => this.update());
     services.points.on(["points"], () => this.update());
     services.editor.proposals.on(["proposal"], () => this.update());
   }
@@ -84,7 +82,7 @@ export class Panel {
   private updateQuality(): void {
     const { project } = this.services;
     const structure = project.activeStructure;
-    const surface = structure && project.surfaces.get(structure.id);
+    const surface = structure && project.seenSurface(structure.id);
     const { proposals } = this.services.editor;
     const nothingHere =
       structure && proposals.shown?.structure === structure.id ? () => void (this.services.editor.isAnotherTime() || proposals.nothingHere()) : null;
@@ -92,7 +90,7 @@ export class Panel {
     const otherProposal = isProposed && proposals.shown?.others?.length ? () => void (this.services.editor.isAnotherTime() || proposals.other()) : null;
     const actions = { nothingHere, otherProposal, show: (contour: Contour) => this.show(contour) };
     render(this.quality, qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, ...actions }, structure));
-    this.element.dataset["revision"] = String(surface?.revision ?? 0);
+    this.element.dataset["revision"] = String(structure ? project.revisionAt(structure.id) : 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["image"] = surface?.image?.verdict ?? "none";
     this.element.dataset["structure"] = String(structure?.id ?? 0);

@@ -105,6 +105,15 @@ export class OverlayPainter implements ToolPainter {
     contour.control.forEach(({ at }, i) => this.handle(toScreen(this.screen, at), i === state.point, i === state.hoveredPoint, color));
   }
 
+  /** One of another time: it is not edited now. */
+  faintContour({ points, closed }: Contour, color: string): void {
+    this.ctx.globalAlpha = 0.4;
+    this.ctx.setLineDash([2, 5]);
+    this.stroke(this.path(points, closed), tinted(color, 0.55), 1.4 * this.appearance.width);
+    this.ctx.setLineDash([]);
+    this.ctx.globalAlpha = 1;
+  }
+
   /** Short strokes off an open line, to where the structure lies. */
   private ticks({ points, plane }: Contour, side: Hand): Path2D {
     const path = new Path2D();

@@ -19,6 +19,8 @@ export interface ShownSlice {
   plane: PixelPlane;
   header: SliceHeader;
   outlines: Outlines;
+  /** Of the image. */
+  time: number;
   crossingPoints: Float32Array;
 }
 
@@ -101,7 +103,7 @@ export class SliceVectors {
   private paintRings(painter: OverlayPainter, screen: Screen): void {
     const { project, navigation } = this.services;
     const crossings = project.shownContours().flatMap((contour) => contour.self_crossings);
-    for (const at of [...crossings, ...markedPlaces(project.surfaces.values())])
+    for (const at of [...crossings, ...markedPlaces(project.seenSurfaces())])
       if (Math.abs(depthBelow(screen, at)) < navigation.step(this.name)) painter.conflict(at);
   }
 
@@ -126,6 +128,8 @@ export class SliceVectors {
   private paintContours(painter: OverlayPainter, screen: Screen): void {
     const { project, editor, navigation } = this.services;
     const hover = editor.hover && "contour" in editor.hover ? editor.hover.contour : null;
+    for (const contour of project.faintContours())
+      if (inView(contour, screen, navigation.step(this.name))) painter.faintContour(contour, project.structures.get(contour.structure)!.color);
     for (const contour of project.shownContours()) {
       if (!inView(contour, screen, navigation.step(this.name))) continue;
       const selected = project.selection?.contour === contour.id;
@@ -170,7 +174,7 @@ export class SliceVectors {
     const color = project.activeStructure?.color ?? "#e8b04a";
     const near = (p: Vec3 | undefined) => p !== undefined && Math.abs(depthBelow(screen, p)) < navigation.step(this.name) / 2;
     const { sketch } = drawing;
-    if (sketch && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
+    if (sketch && project.isOfTime(sketch) && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
       const placed = drawing.placedLine.length > 1 ? drawing.placedLine : sketch.line();
       painter.sketch(
         placed,
@@ -181,7 +185,8 @@ export class SliceVectors {
       );
     }
     for (const { sketch: closed, line } of drawing.outbox.lines())
-      if (areParallel(closed.plane, screen.axes) && near(line[0])) painter.hand(line, project.structures.get(closed.structure)?.color ?? color);
+      if (project.isOfTime(closed) && areParallel(closed.plane, screen.axes) && near(line[0]))
+        painter.hand(line, project.structures.get(closed.structure)?.color ?? color);
     if (near(drawing.handLine[0]) && near(drawing.handLine.at(-1))) painter.hand(drawing.handLine, color);
   }
 }

@@ -199,9 +199,13 @@ export class SliceView {
 
   private lacksOutlines(): boolean {
     const { project } = this.services;
-    return [...project.surfaces.values()].some(({ structure, revision, stage }) => {
+    if (this.slice && this.slice.time !== project.time) return true;
+    return [...project.surfaces.values()].some(({ structure, stage }) => {
       const shown = this.slice?.outlines.get(structure)?.revision;
-      return shown !== (stage === "none" ? undefined : revision) && project.structures.get(structure)?.visible === true;
+      return (
+        shown !== (stage === "none" && !project.motions.has(structure) ? undefined : project.revisionAt(structure)) &&
+        project.structures.get(structure)?.visible === true
+      );
     });
   }
 
@@ -288,8 +292,9 @@ export class SliceView {
         outlines: newestOutlines(
           reply.header.outlines,
           reply.f32("outline_points"),
-          this.slice && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null,
+          this.slice && this.slice.time === time && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null,
         ),
+        time,
         crossingPoints: reply.f32("crossing_points"),
       };
       if (pixels) this.keepPixels(reply, width, height);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image of several frames: one is drawn on, the others are looked at.
+// An image of several frames: each can be looked at and drawn on.
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
@@ -87,68 +87,28 @@ describe("an image of several frames", () => {
     assert.equal(await brightAt(28), true);
   });
 
-  test("is drawn on where it was opened, and nowhere else", async () => {
+  test("a line that is begun in a frame is ended there", async () => {
     const { page } = viewer;
     await page.keyboard.press(".");
-    await page.keyboard.press("f");
-    const ring = circle(await viewer.pixels("axial", RADII_MM[1]!), 48);
-    await viewer.drag("axial", ring);
-    const notice = page.locator(".notice", { hasText: "Contours belong to frame 2; frame 3 is only to be looked at." });
+    await page.keyboard.press("l");
+    const reach = await viewer.pixels("axial", RADII_MM[2]!);
+    for (const [right, down] of circle(reach, 5).slice(0, 3)) await viewer.click("axial", right, down);
+    await page.keyboard.press(",");
+    await viewer.click("axial", reach, 20);
+    const notice = page.locator(".notice", { hasText: "What you are drawing belongs to frame 3; this is frame 2." });
     await notice.waitFor();
-    assert.equal(await viewer.contours(), 0);
-    await notice.locator("button", { hasText: "Go to frame 2" }).click();
-    assert.equal(await frame(), "2 / 4");
-    await viewer.drag("axial", ring);
-    await viewer.waitForContours(1);
-    await viewer.surfaceShown();
-    await page.keyboard.press("v");
-    await page.keyboard.press(".");
-    await viewer.drag("axial", [
-      [await viewer.pixels("axial", 32), 0],
-      [await viewer.pixels("axial", 50), 0],
-    ]);
-    await viewer.slicesShown();
-    await viewer.waitForStep("undo", "Draw a contour");
-    await page.keyboard.press(",");
-  });
-
-  test("is not edited by keys and buttons while another frame is seen", async () => {
-    const { page } = viewer;
-    await viewer.show(0); // selects it
-    await page.keyboard.press("PageDown");
-    await page.keyboard.press("c");
-    await page.locator(".hint", { hasText: "A proposal" }).waitFor();
-    await page.keyboard.press(".");
-    const notice = page.locator(".notice", { hasText: "Contours belong to frame 2; frame 3 is only to be looked at." });
-    await page.mouse.move(...(await viewer.at("coronal", await viewer.pixels("coronal", 32), 0)));
-    const row = page.locator(".contour-row");
-    const smoothing = await page.locator("[data-test=smoothing]").inputValue();
-    const tries = [
-      ...["Enter", "Delete", "Backspace", "a", "c", "g", "e", "h", "Control+z", "Control+y"].map((key) => () => page.keyboard.press(key)),
-      () => page.click("[data-test=undo]"),
-      () => page.click("[data-test=propose-next]"),
-      () => page.click(".contour-actions button:has-text('Delete')"),
-      () => page.click(".contour-actions input[type=checkbox]"),
-      () => row.hover().then(() => row.locator("[data-test=delete-contour]").click()),
-      () => page.click(".structure-row [data-part=remove]"),
-      () => page.locator("[data-test=smoothing]").press("ArrowRight"),
-    ];
-    for (const attempt of tries) {
-      await attempt();
-      await notice.waitFor();
-      await notice.click(); // closes it
-      await notice.waitFor({ state: "detached" });
-    }
-    await viewer.saved();
-    assert.equal(await viewer.contours(), 1);
-    assert.equal(await page.locator(".contour-row .flag").count(), 0, "no hole");
-    assert.equal(await page.isChecked(".contour-actions input[type=checkbox]"), false, "the box shows again what is");
-    assert.equal(await page.locator("[data-test=smoothing]").inputValue(), smoothing);
-    await viewer.waitForStep("undo", "Draw a contour");
-    await page.keyboard.press(",");
-    await page.locator(".hint", { hasText: "A proposal" }).waitFor();
     await page.keyboard.press("Enter");
-    await viewer.waitForContours(2);
+    await viewer.saved();
+    assert.equal(await viewer.contours(), 0);
+    await notice.locator("button", { hasText: "Go to frame 3" }).first().click();
+    assert.equal(await frame(), "3 / 4");
+    await page.keyboard.press("Enter");
+    await viewer.waitForContours(1);
+    assert.equal(await page.locator(".time-mark").getAttribute("data-time"), "2");
+    await page.keyboard.press("Control+z");
+    await viewer.waitForContours(0);
+    await page.keyboard.press(",");
+    await page.keyboard.press("v");
   });
 
   test("has a second image of as many frames beside it that moves in time with it", async () => {

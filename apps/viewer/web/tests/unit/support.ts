@@ -69,6 +69,8 @@ export function session(changes: Partial<Session> = {}): Session {
     structures: [{ id: 1, name: "Liver", color: "#e8b04a", visible: true }],
     contours: [],
     surfaces: [],
+    motions: [],
+    cycle_frames: null,
     history: { undo: null, redo: null },
     borders: { shared: false, rules: [] },
     border_pairs: [],

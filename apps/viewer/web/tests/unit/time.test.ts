@@ -44,22 +44,33 @@ test("an image of one frame is not played", () => {
   assert.deepEqual([cine.toggle(), cine.step(1), cine.isPlaying], [false, false, false]);
 });
 
-test("at another time than that of the contours tools that edit say so, and Edit and Measure look around", () => {
-  const all = editing("freehand");
-  const { navigation, editor, press, drag, edits, complaints, remedies } = all;
+test("what is begun in a frame is gone on with there, and tools that look around work in others", () => {
+  const all = editing("spline");
+  const { navigation, project, editor, press, edits, complaints, remedies } = all;
   const plain = session();
+  navigation.on(["time"], () => project.setTime(navigation.time, navigation.ownTime));
   navigation.start({ ...plain, image: { ...plain.image, times: 5, time: 2 } }, null);
+  const click = (at: [number, number]) => press(at)?.end(at);
+  click([100, 100]);
+  assert.equal(editor.drawing.sketch?.time, null);
   navigation.setTime(4);
-  assert.equal(press([100, 100]), null);
-  assert.match(complaints.at(-1)!, /belong to frame 3; frame 5 is only/);
-  editor.choose("edit");
-  drag([220, 180], [260, 180]); // on the contour's line
+  assert.equal(press([140, 100]), null);
+  assert.match(complaints.at(-1)!, /What you are drawing belongs to frame 3; this is frame 5/);
   assert.deepEqual(edits(), []);
-  editor.choose("measure");
-  drag([100, 200], [150, 200]);
-  assert.equal(editor.measuring.measurements.all.length, 1);
-  editor.choose("freehand");
   remedies.at(-1)!.act();
   assert.equal(navigation.isAway, false);
-  assert.notEqual(press([100, 100]), null);
+  assert.notEqual(press([140, 100]), null);
+});
+
+test("a mask is corrected in its frame alone", () => {
+  const { navigation, project, editor, press, complaints } = editing("freehand");
+  const plain = session();
+  navigation.on(["time"], () => project.setTime(navigation.time, navigation.ownTime));
+  navigation.start({ ...plain, image: { ...plain.image, times: 5, time: 2 } }, null);
+  const active = project.activeStructure!;
+  project.structures.set(active.id, { ...active, mask: { hash: "a", reach: 1, drop_loose: false, confirmed_planes: [] } });
+  navigation.setTime(4);
+  assert.equal(press([100, 100]), null);
+  assert.match(complaints.at(-1)!, /belongs to frame 3; in frame 5 it is only to be looked at/);
+  assert.equal(editor.isOutOfTime, true);
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "segment_moving.h"
+#include "segment_frames.h"
 
 #include <fmt/format.h>
 
@@ -33,19 +33,6 @@ std::vector<double> times_of(const SegmentCommand& command, const ContourSet& co
     for (std::int64_t n = 0; n < frames.count; ++n)
         times.push_back(in_seconds ? static_cast<double>(n) * frames.step_s.value_or(0) : static_cast<double>(n + 1));
     return times;
-}
-
-std::string csv_of(const MovingSegmentation& result, const std::optional<double>& step_s) {
-    std::string text = "frame,time_s,volume_ml,contours,phase\n";
-    for (std::size_t n = 0; n < result.masks.size(); ++n) {
-        std::size_t contours = 0;
-        for (const DrawnMoment& moment : result.moments) contours += moment.time == result.times[n] ? moment.contours : 0;
-        const char* phase = n == result.volumes.largest ? "largest" : n == result.volumes.smallest ? "smallest" : "";
-        text +=
-            fmt::format("{},{},{:.3f},{},{}\n", n + 1, step_s ? fmt::format("{:g}", static_cast<double>(n) * *step_s) : "",
-                        result.volumes.volumes_ml[n], contours, phase);
-    }
-    return text;
 }
 
 std::string json_of(const MovingSegmentation& result, const Provenance& made) {
@@ -139,7 +126,9 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
         work.check();
     };
     write(command.output, [&](const fs::path& path) { write_masks(path, result.masks, frames.step_s, mask); });
-    write(command.volumes, [&](const fs::path& path) { write_file_atomically(path, csv_of(result, frames.step_s)); });
+    write(command.volumes, [&](const fs::path& path) {
+        write_file_atomically(path, volumes_csv(result.times, result.volumes, result.moments, frames.step_s));
+    });
     write(command.report, [&](const fs::path& path) { write_file_atomically(path, json_of(result, mask.provenance)); });
     outputs.commit();
     for (const std::string& warning : result.warnings) console.warn(warning);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/files/fitted_motion.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <utility>
+
+#include "kontur/base/error.h"
+
+namespace kontur::viewer {
+namespace {
+
+constexpr double kSpacingFraction = 0.01;  // of the contours' diameter
+
+}  // namespace
+
+FittedMotion::FittedMotion(const State& state, Id structure, const Grid& grid, int times, const Work& work)
+    : structure_(structure_of(state, structure)),
+      set_(contour_set(state, structure)),
+      frames_(static_cast<std::size_t>(times)) {
+    std::iota(frames_.begin(), frames_.end(), 1);
+    try {
+        MovingFit fit = MovingFitter(grid, {.smoothing = structure_.smoothing, .drawn_on = grid}).fit(set_, frames_, work);
+        std::vector<Mask> masks;
+        std::vector<std::vector<Vec3>> starts;
+        for (const DrawnMoment& moment : fit.moments) {
+            masks.push_back(moment.segmentation.mask);
+            std::vector<Vec3>& points = starts.emplace_back();
+            for (const Contour& contour : moment.set.contours)
+                points.insert(points.end(), contour.points.begin(), contour.points.end());
+        }
+        masks_.emplace(fit.function, std::move(masks), work);
+        meshes_.emplace(fit.function, starts, kSpacingFraction * diameter_mm(set_), work);
+        moments_ = std::move(fit.moments);
+    } catch (const Error& error) {
+        throw Error(error.kind(), fmt::format("{}: {}", structure_.name, error.what()));
+    }
+}
+
+FittedStructure FittedMotion::at(int time) const {
+    FittedStructure one{structure_, set_, {}, true, {}};
+    const double frame = frames_.at(static_cast<std::size_t>(time));
+    one.made.mask = masks_->at(frame);
+    one.made.mesh = meshes_->at(frame);
+    one.made.report = moments_.front().segmentation.report;
+    one.made.report.mask_volume_ml = volume_ml(one.made.mask);
+    one.made.report.uncertainty = {};  // that of one moment tells nothing of others
+    return one;
+}
+
+std::vector<Mask> FittedMotion::masks() const {
+    std::vector<Mask> masks;
+    for (const double frame : frames_) masks.push_back(masks_->at(frame));
+    return masks;
+}
+
+std::string FittedMotion::volumes_csv(const std::optional<double>& step_s) const {
+    std::vector<double> volumes;
+    for (const double frame : frames_) volumes.push_back(volume_ml(masks_->at(frame)));
+    return kontur::volumes_csv(frames_, volume_curve(std::move(volumes)), moments_, step_s);
+}
+
+Provenance FittedMotion::provenance() const {
+    const SegmentReport& report = moments_.front().segmentation.report;
+    return kontur::provenance(set_, moments_.front().segmentation.mask.grid, report);
+}
+
+}  // namespace kontur::viewer

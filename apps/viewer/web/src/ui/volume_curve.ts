@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+import { el } from "../dom/dom";
+import { piece, render, type Piece } from "../dom/pieces";
+import { volumeText } from "../model/volumes";
+import type { VolumeCurve } from "../net/protocol";
+
+const HEIGHT = 100; // of the drawing's own units
+const ROOM = 8; // above and below the line
+
+const SVG = "http://www.w3.org/2000/svg";
+
+function svg(name: string, attributes: Record<string, string>): SVGElement {
+  const element = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  return element;
+}
+
+/** The volume over time as a line; a click goes to the time below it. */
+export class CurveView {
+  readonly element = el("div", { class: "curve", "data-test": "curve", hidden: true, role: "img" });
+  private readonly drawing = svg("svg", { preserveAspectRatio: "none" });
+  private count = 1;
+
+  constructor(go: (time: number) => void) {
+    this.element.append(this.drawing);
+    this.element.addEventListener("click", (event) => {
+      const box = this.drawing.getBoundingClientRect();
+      const share = (event.clientX - box.left) / box.width;
+      go(Math.min(this.count - 1, Math.max(0, Math.round(share * (this.count - 1)))));
+    });
+  }
+
+  show(curve: VolumeCurve | undefined, time: number, color: string): void {
+    this.element.hidden = !curve;
+    if (!curve) return;
+    const { volumes_ml, largest, smallest } = curve;
+    this.count = volumes_ml.length;
+    const most = volumes_ml[largest]!;
+    const least = Math.min(volumes_ml[smallest]!, 0.98 * most);
+    const y = (ml: number) => HEIGHT - ROOM - ((HEIGHT - 2 * ROOM) * (ml - least)) / (most - least || 1);
+    const line = volumes_ml.map((ml, n) => `${n === 0 ? "M" : "L"}${n} ${y(ml).toFixed(2)}`).join(" ");
+    this.drawing.setAttribute("viewBox", `0 0 ${Math.max(1, this.count - 1)} ${HEIGHT}`);
+    const marks = [largest, smallest].map((n) => svg("path", { d: `M${n} 0V${HEIGHT}`, class: "curve-mark" }));
+    this.drawing.replaceChildren(
+      ...marks,
+      svg("path", { d: `M${time} 0V${HEIGHT}`, class: "curve-now" }),
+      svg("path", { d: line, class: "curve-line", stroke: color }),
+    );
+    this.element.setAttribute("aria-label", `Volume over ${this.count} frames: ${curveText(curve)}`);
+  }
+}
+
+/** "largest (end-diastole) frame 1, 149 ml; ...". */
+export function curveText({ volumes_ml, largest, smallest, stroke_ml, ejection_fraction }: VolumeCurve): string {
+  const at = (n: number) => `frame ${n + 1}, ${volumeText(volumes_ml[n]!)}`;
+  const share = `ejection fraction ${(100 * ejection_fraction).toFixed(1)} %`;
+  return `end-diastole ${at(largest)}; end-systole ${at(smallest)}; stroke volume ${volumeText(stroke_ml)}; ${share}`;
+}
+
+/** The same as figures, whose frames can be gone to. */
+export function showFigures(target: HTMLElement, curve: VolumeCurve | undefined, go: (time: number) => void): void {
+  target.hidden = !curve;
+  if (!curve) return;
+  const { volumes_ml, largest, smallest, stroke_ml, ejection_fraction } = curve;
+  const place = (title: string, test: string, n: number): Piece =>
+    piece(
+      "button",
+      {
+        type: "button",
+        class: "choice",
+        "data-test": test,
+        title: `Go to frame ${n + 1}, where the volume is ${n === largest ? "largest" : "smallest"}`,
+        on: { click: () => go(n) },
+      },
+      `${title} ${n + 1}: ${volumeText(volumes_ml[n]!)}`,
+    );
+  render(target, [
+    place("End-diastole", "largest", largest),
+    place("End-systole", "smallest", smallest),
+    piece("span", { "data-test": "stroke" }, `Stroke volume ${volumeText(stroke_ml)}`),
+    piece("span", { "data-test": "ejection" }, `Ejection fraction ${(100 * ejection_fraction).toFixed(1)} %`),
+  ]);
+}

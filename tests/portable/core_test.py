@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """KONTUR_CORE: the library alone, without what the whole one is linked with."""
 import os
+import pathlib
 import re
 import subprocess
 
@@ -14,10 +15,10 @@ LEFT_OUT = ["DCMTK", "PNG", "ZLIB", "BZip2", "OpenSSL", "PkgConfig", "Boost", "S
 
 
 def test_it_is_linked_with_the_c_and_cpp_libraries_alone():
-    loaded = re.findall(r"^\s+(?:/\S*/)?([a-z+_-]+?)[-.0-9]*so", subprocess.run(["ldd", CORE], check=True, capture_output=True, text=True).stdout,
-                        re.MULTILINE)
-    assert set(loaded) <= {"linux-vdso.", "libstdc++.", "libm.", "libgcc_s.", "libc.", "ld-linux-x"} | {
-        "linux-vdso", "libstdc++", "libm", "libgcc_s", "libc", "ld-linux-x86-64", "ld-linux-x"}, loaded
+    listed = subprocess.run(["ldd", CORE], check=True, capture_output=True, text=True).stdout
+    loaded = {pathlib.Path(line.split()[0]).name.split(".so")[0] for line in listed.splitlines()}
+    assert {"libstdc++", "libc"} <= loaded
+    assert {name for name in loaded if not name.startswith("ld-linux")} <= {"linux-vdso", "libstdc++", "libm", "libgcc_s", "libc"}
 
 
 def test_it_gives_the_bytes_of_the_whole_library(tmp_path):

@@ -6,8 +6,8 @@ namespace kontur {
 
 RgbImage make_picture(const TriangleMesh&, const ContourSet&, const Image*, const PictureOptions&, const Work&) {
     throw Error(ErrorKind::unsupported,
-                "this kontur draws no pictures, because it was built without Cairo; Debian's package python3-kontur and the "
-                "command line have it");
+                "this kontur draws no pictures, because it was built without Cairo; the command line and Debian's "
+                "python3-kontur draw them");
 }
 
 }  // namespace kontur

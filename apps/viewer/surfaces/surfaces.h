@@ -243,7 +243,7 @@ private:
     std::deque<SurfaceTask> later_;
     Retired retired_;                   ///< not needed any more; an editor's own thread cannot end it
     std::map<Id, Follower> followers_;  ///< their threads use all above
-    std::thread sharing_thread_;       ///< it does, too
+    std::thread sharing_thread_;        ///< it does, too
     Motions motions_;                   ///< last: its thread does
 };
 

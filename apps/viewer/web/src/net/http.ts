@@ -2,7 +2,21 @@
 import { BinaryReply } from "./binary";
 import { Link } from "./link";
 import type { CodedMesh } from "./mesh_code";
-import type { ArchivedRequest, ArchivedSeries, ArchivedStudies, Comparison, Folder, ImportReply, NearDrawing, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
+import type {
+  ArchivedRequest,
+  ArchivedSeries,
+  ArchivedStudies,
+  Comparison,
+  Folder,
+  ImportReply,
+  NearDrawing,
+  OpenRequest,
+  SavedArrangement,
+  SliceHeader,
+  SliceRequest,
+  Statistics,
+  Volume,
+} from "./protocol";
 
 export interface FileChoices {
   /** So many are in the file, and one has to be named. */

@@ -97,7 +97,13 @@ export class ArchiveView {
           { "aria-label": study.patient_name },
           el("h3", {}, [study.patient_name || "Patient without a name", study.date, study.description].filter(Boolean).join(" · ")),
           cards.length > 0 ? el("ul", {}, ...cards) : el("p", { class: "empty" }, "No series of this study shows images."),
-          others.length > 0 ? el("p", { class: "fine", "data-test": "archived-others" }, `Also in this study: ${others.join(", ")}. Segmentations and structure sets come along.`) : null,
+          others.length > 0
+            ? el(
+                "p",
+                { class: "fine", "data-test": "archived-others" },
+                `Also in this study: ${others.join(", ")}. Segmentations and structure sets come along.`,
+              )
+            : null,
         ),
       ]);
       this.say("");

@@ -261,6 +261,8 @@ void Motions::fit(Id structure, const StopToken& stop) {
         for (MotionFrame& frame : motion.frames) frame.is_current = false;
         motion.sections = sections_of(fitted.moments);
         motion.warnings = fitted.warnings;
+        // The page asks for the cycle itself; the sentence names an option of the command line.
+        std::erase_if(motion.warnings, [](const std::string& one) { return one.starts_with("nothing moves before"); });
         motion.is_finished = false;
     });
 }

@@ -83,6 +83,7 @@ export class ContourRows {
     const { view: name, slice, position } = placeOf(contour, this.services.navigation);
     const isSelected = project.marked.has(contour.id);
     const points = hasOwnPoints(contour) ? `${contour.control.length} pts` : `${contour.points.length} pts`;
+    const frame = project.isOfTime(contour) ? "" : `frame ${project.timeOf(contour) + 1}`;
     const kind = KIND_LABELS[contour.kind];
     const choose = (event: MouseEvent) => {
       if ((event.target as HTMLElement).closest(".icon-button")) return;
@@ -117,6 +118,7 @@ export class ContourRows {
       contour.self_crossings.length > 0
         ? piece("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself")
         : null,
+      frame ? piece("span", { class: "flag", "data-test": "frame", title: "Drawn in another frame than the one that is seen" }, frame) : null,
       piece("span", { class: "contour-points" }, points),
       eye(contour.visible, () => call("contour.set", { id: contour.id, visible: !contour.visible })),
       buttonPiece({

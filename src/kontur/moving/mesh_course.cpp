@@ -76,7 +76,7 @@ MeshCourse::MeshCourse(const MovingFunction& function, const std::vector<std::ve
     }
     mark_moments(surfaces);
     choose_points(surfaces);
-    evaluate(function, surfaces, work);
+    evaluate(function, work);
 }
 
 void MeshCourse::mark_moments(const std::vector<SurfaceLattice>& surfaces) {
@@ -105,32 +105,22 @@ void MeshCourse::choose_points(const std::vector<SurfaceLattice>& surfaces) {
     }
 }
 
-void MeshCourse::evaluate(const MovingFunction& function, const std::vector<SurfaceLattice>& surfaces, const Work& work) {
-    const std::size_t moments = surfaces.size();
+void MeshCourse::evaluate(const MovingFunction& function, const Work& work) {
+    const std::size_t moments = inside_.size();
     values_.resize(points_.size() * moments);
     std::vector<Vec3> places;
-    std::vector<std::size_t> unknown;
-    std::vector<double> values;
+    for (const Index3& p : points_) places.push_back(grid_.center_mm(p.i, p.j, p.k));
+    std::vector<double> values(places.size());
     for (std::size_t k = 0; k < moments; ++k) {
         work.report("values between moments", static_cast<double>(k) / static_cast<double>(moments));
-        places.clear();
-        unknown.clear();
-        for (std::size_t n = 0; n < points_.size(); ++n) {
-            const double known = surfaces[k].lattice.value(points_[n]);
-            values_[n * moments + k] = static_cast<float>(known);
-            if (std::isfinite(known)) continue;
-            unknown.push_back(n);
-            places.push_back(grid_.center_mm(points_[n].i, points_[n].j, points_[n].k));
-        }
-        values.resize(places.size());
+        // Not those that finding the surface left: away from it their sign alone is right.
         FastFunction fast(function.functions()[k], {.tolerance_mm = kTolerance * spacing_mm(),
                                                     .expected_points = static_cast<std::int64_t>(places.size())});
         fast.values(places, values, work.untold());
-        for (std::size_t n = 0; n < unknown.size(); ++n) values_[unknown[n] * moments + k] = static_cast<float>(values[n]);
         for (std::size_t n = 0; n < points_.size(); ++n) {
             // A sheet that no start touches is not there, whatever f says.
             const bool is_inside = inside_[k][grid_.offset(points_[n].i, points_[n].j, points_[n].k)];
-            float& value = values_[n * moments + k];
+            float& value = values_[n * moments + k] = static_cast<float>(values[n]);
             if (is_inside != (value > 0)) value = is_inside ? kLeast : 0.0F;
         }
     }

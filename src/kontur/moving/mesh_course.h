@@ -31,7 +31,7 @@ public:
 private:
     void mark_moments(const std::vector<SurfaceLattice>& surfaces);
     void choose_points(const std::vector<SurfaceLattice>& surfaces);
-    void evaluate(const MovingFunction& function, const std::vector<SurfaceLattice>& surfaces, const Work& work);
+    void evaluate(const MovingFunction& function, const Work& work);
 
     TimeCourse course_;
     Grid grid_;

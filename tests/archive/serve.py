@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An archive for the page's tests: Debian's Orthanc with nine axial slices in it. Prints its DICOMweb address, and ends with its
+input. Exit code 77 where Orthanc is not installed.
+
+python3 serve.py FOLDER
+"""
+import pathlib
+import shutil
+import sys
+
+import support
+
+folder = pathlib.Path(sys.argv[1])
+if not shutil.which("Orthanc") or not support.PLUGIN.exists():
+    sys.exit(77)
+with support.running(support.Orthanc(folder)) as orthanc:
+    orthanc.put(support.make_series(folder))
+    print(orthanc.address, flush=True)
+    sys.stdin.read()

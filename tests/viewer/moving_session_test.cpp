@@ -97,7 +97,9 @@ struct BeatingSession {
     Mask mask_in(const Download& file, std::optional<std::int64_t> frame) {
         const auto path = folder.path() / "mask.nii.gz";
         std::ofstream(path, std::ios::binary) << file.bytes;
-        return select_nonzero(read_image(path, {.frame = frame}));
+        ReadImageOptions options;
+        options.frame = frame;
+        return select_nonzero(read_image(path, options));
     }
 };
 

@@ -147,9 +147,10 @@ def test_a_drawn_frame_shows_what_was_drawn(server):
     wait_for_motion(page, structure)
     for frame in (OWN + 1, 6):
         _, arrays = server.binary("GET", f"/api/mesh/{structure}?time={frame - 1}")
-        away = numpy.linalg.norm(arrays["positions"].reshape(-1, 3), axis=1)
-        middle = numpy.abs(arrays["positions"].reshape(-1, 3)[:, 2]) < 12
-        assert abs(away[middle] - radius_at(frame)).max() < 0.35
+        points = arrays["positions"].reshape(-1, 3)
+        drawn = numpy.abs(points[:, 2:] - numpy.array(SLICES)).min(1) < 0.5
+        assert drawn.sum() > 100
+        assert abs(numpy.linalg.norm(points[drawn], axis=1) - radius_at(frame)).max() < 0.35
 
 
 def test_an_edit_is_undone_and_a_killed_server_keeps_all(server, tmp_path, cine):

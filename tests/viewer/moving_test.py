@@ -147,9 +147,9 @@ def test_a_drawn_frame_shows_what_was_drawn(server):
     wait_for_motion(page, structure)
     for frame in (OWN + 1, 6):
         _, arrays = server.binary("GET", f"/api/mesh/{structure}?time={frame - 1}")
-        points = arrays["positions"].reshape(-1, 3)
-        drawn = numpy.abs(points[:, 2:] - numpy.array(SLICES)).min(1) < 0.5
-        assert drawn.sum() > 100
+        points = arrays["positions"].reshape(-1, 3) - (0, 0, 1)  # the views show slices of voxels, which lie at odd places
+        drawn = numpy.abs(points[:, 2]) < max(SLICES)
+        assert drawn.sum() > 1000
         assert abs(numpy.linalg.norm(points[drawn], axis=1) - radius_at(frame)).max() < 0.35
 
 

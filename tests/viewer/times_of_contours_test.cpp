@@ -10,7 +10,8 @@ namespace kontur::viewer {
 namespace {
 
 ContourSet at_frames(std::vector<double> frames) {
-    ContourSet set = test::ball_slices({}, 30, static_cast<int>(frames.size()), 10);
+    ContourSet set = test::ball_slices({}, 30, 5, 10);
+    set.contours.resize(frames.size());
     for (std::size_t n = 0; n < frames.size(); ++n) set.contours[n].frame = frames[n];
     return set;
 }

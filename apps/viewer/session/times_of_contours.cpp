@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
@@ -36,7 +38,9 @@ void turn_seconds_into_frames(ContourSet& set, const FramesOfImage& frames) {
 
 std::vector<std::string> put_into_frames(ContourSet& set, const FramesOfImage& frames) {
     if (frames.count < 2) {
-        if (is_moving(set))
+        const auto moment = [](const Contour& contour) { return std::pair(contour.frame, contour.time_s); };
+        const auto is_first = [&](const Contour& contour) { return moment(contour) == moment(set.contours.front()); };
+        if (!std::ranges::all_of(set.contours, is_first))
             refuse("contours were drawn at several moments, and the image has 1 frame; open the image that has all of them");
         for (Contour& contour : set.contours) contour.frame.reset(), contour.time_s.reset();
         return {};

@@ -17,7 +17,7 @@ function svg(name: string, attributes: Record<string, string>): SVGElement {
 
 /** The volume over time as a line; a click goes to the time below it. */
 export class CurveView {
-  readonly element = el("div", { class: "curve", "data-test": "curve", hidden: true, role: "img" });
+  readonly element = el("div", { class: "curve absent", "data-test": "curve", role: "img" });
   private readonly drawing = svg("svg", { preserveAspectRatio: "none" });
   private count = 1;
 
@@ -31,7 +31,7 @@ export class CurveView {
   }
 
   show(curve: VolumeCurve | undefined, time: number, color: string): void {
-    this.element.hidden = !curve;
+    this.element.classList.toggle("absent", !curve); // its place is kept: views must not move under a hand that draws
     if (!curve) return;
     const { volumes_ml, largest, smallest } = curve;
     this.count = volumes_ml.length;

@@ -123,6 +123,7 @@ describe("a heart that beats", () => {
     await page.keyboard.press(".");
     assert.equal(await frame(), "2 / 8");
     await viewer.slicesShown();
+    await page.keyboard.press("v"); // Freehand would begin a line
     await page.mouse.move(...(await viewer.at("axial", 5, 5)));
     await page.mouse.down();
     await page.mouse.up();

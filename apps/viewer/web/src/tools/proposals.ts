@@ -47,7 +47,9 @@ export class Proposals extends Emitter<"proposal"> {
       ++this.suggestions;
       this.drop();
     });
-    project.on(["time"], () => this.drop());
+    project.on(["time"], () => {
+      this.drop();
+    });
     navigation.on(["planes"], () => this.dropOutOfSight());
   }
 

@@ -15,8 +15,9 @@ endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Only the reference solvers load it, when they run, which dpkg-shlibdeps cannot see.
+# Loaded when a reference solver runs, and when an archive is asked: dpkg-shlibdeps cannot see it.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS libopenblas0)
+set(CPACK_DEBIAN_COMMAND_LINE_PACKAGE_DEPENDS "libopenblas0, libcurl4")
 
 set(CPACK_DEBIAN_COMMAND_LINE_PACKAGE_NAME kontur)
 set(CPACK_DEBIAN_COMMAND_LINE_PACKAGE_RECOMMENDS fonts-dejavu-core)

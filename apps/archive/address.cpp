@@ -85,6 +85,10 @@ Address parse_address(std::string_view word) {
     return address;
 }
 
+void check_names_study(const Address& address) {
+    if (address.study_uid.empty()) refuse(fmt::format("{0} names no study; kontur find {0} lists them", address.text()));
+}
+
 std::string Address::text() const {
     std::string text = service;
     if (!study_uid.empty()) text += "/studies/" + study_uid;

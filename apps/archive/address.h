@@ -29,6 +29,9 @@ bool is_address(std::string_view word);
 /// UIDs that are none, and, without quoting it, for an address that carries a password or a query.
 Address parse_address(std::string_view word);
 
+/// Throws Error(invalid_input) for the address of a service.
+void check_names_study(const Address& address);
+
 /// Digits and dots, 64 at most (DICOM PS3.5, 9.1).
 bool is_uid(std::string_view text);
 

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <optional>
 #include <string>
 #include <system_error>
 
 #include "archive/fetch.h"
 #include "kontur/base/error.h"
+#include "kontur/io/bytes/folders.h"
 
 namespace kontur::archive {
 namespace {
@@ -17,15 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path cache_folder() {
-    const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
-    fs::path folder;
-    if (cache && fs::path(cache).is_absolute()) folder = cache;
-    else if (home && fs::path(home).is_absolute()) folder = fs::path(home) / ".cache";
-    else throw Error(ErrorKind::io, "neither XDG_CACHE_HOME nor HOME says where images of an archive may be kept");
-    folder /= "kontur/archive";
+    const std::optional<fs::path> caches = user_folder("XDG_CACHE_HOME", ".cache");
+    if (!caches) throw Error(ErrorKind::io, "neither XDG_CACHE_HOME nor HOME says where images of an archive may be kept");
+    const fs::path folder = *caches / "kontur/archive";
+    make_folder(folder);
     std::error_code failure;
-    fs::create_directories(folder, failure);
-    if (!failure) fs::permissions(folder, fs::perms::owner_all, failure);
+    fs::permissions(folder, fs::perms::owner_all, failure);
     if (failure) throw Error(ErrorKind::io, fmt::format("cannot make {}: {}", folder.string(), failure.message()));
     return folder;
 }

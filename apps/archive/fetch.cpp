@@ -18,6 +18,7 @@
 #include "archive/query.h"
 #include "archive/refusal.h"
 #include "kontur/base/error.h"
+#include "kontur/io/bytes/folders.h"
 
 namespace kontur::archive {
 namespace {
@@ -111,13 +112,6 @@ void fetch_parts(Http& http, const Address& address, std::size_t objects, PartFi
     const Answer answer = http.ask(request, work, &parts);
     if (answer.status != 200) throw refusal(answer, http, address.text());
     parts.finish();
-}
-
-/// The folder, made if it is not there.
-void make_folder(const fs::path& folder) {
-    std::error_code failure;
-    fs::create_directories(folder, failure);
-    if (failure) throw Error(ErrorKind::io, fmt::format("cannot make {}: {}", folder.string(), failure.message()));
 }
 
 std::set<std::string> missing_in(const fs::path& folder, const std::vector<Instance>& listed) {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "archive/http.h"
 
-#include <curl/curl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <mutex>
 #include <new>
 #include <utility>
 
+#include "archive/libcurl.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 
@@ -25,43 +24,38 @@ constexpr std::size_t kMostRefusalBytes = 65536;  // of an answer that is no suc
 
 struct List {
     curl_slist* first = nullptr;
-    ~List() { curl_slist_free_all(first); }
+    ~List() { libcurl().slist_free_all(first); }
     void add(const std::string& line) {
-        curl_slist* longer = curl_slist_append(first, line.c_str());
+        curl_slist* longer = libcurl().slist_append(first, line.c_str());
         if (!longer) throw std::bad_alloc();
         first = longer;
     }
 };
 
-void set_up_once() {
-    static std::once_flag once;
-    std::call_once(once, [] { curl_global_init(CURL_GLOBAL_DEFAULT); });
-}
-
 std::string origin_of(const char* address) {
-    CURLU* parts = curl_url();
+    CURLU* parts = libcurl().url();
     std::string origin;
-    if (parts && curl_url_set(parts, CURLUPART_URL, address, 0) == CURLUE_OK)
+    if (parts && libcurl().url_set(parts, CURLUPART_URL, address, 0) == CURLUE_OK)
         for (const CURLUPart part : {CURLUPART_SCHEME, CURLUPART_HOST, CURLUPART_PORT}) {
             char* text = nullptr;
-            if (curl_url_get(parts, part, &text, CURLU_DEFAULT_PORT) == CURLUE_OK && text)
+            if (libcurl().url_get(parts, part, &text, CURLU_DEFAULT_PORT) == CURLUE_OK && text)
                 origin += (origin.empty() ? "" : part == CURLUPART_HOST ? "://" : ":") + lower_case(text);
-            curl_free(text);
+            libcurl().free(text);
         }
-    curl_url_cleanup(parts);
+    libcurl().url_cleanup(parts);
     return origin;
 }
 
 }  // namespace
 
 struct Http::Handle {
-    CURL* curl = curl_easy_init();
+    CURL* curl = libcurl().easy_init();
     std::array<char, CURL_ERROR_SIZE> reason{};
-    ~Handle() { curl_easy_cleanup(curl); }
+    ~Handle() { libcurl().easy_cleanup(curl); }
 
     template <class Value>
     void set(CURLoption option, Value value) {
-        if (curl_easy_setopt(curl, option, value) != CURLE_OK) throw std::bad_alloc();
+        if (libcurl().easy_setopt(curl, option, value) != CURLE_OK) throw std::bad_alloc();
     }
 };
 
@@ -90,17 +84,17 @@ struct Http::Transfer {
 
     bool took_all_its_time() const {
         double seconds = 0;
-        curl_easy_getinfo(curl, CURLINFO_TOTAL_TIME, &seconds);
+        libcurl().easy_getinfo(curl, CURLINFO_TOTAL_TIME, &seconds);
         return seconds >= request.most_seconds;
     }
     bool is_success() const { return answer.status >= 200 && answer.status < 300; }
 
     void begin() {
         long status = 0;
-        curl_easy_getinfo(curl, CURLINFO_RESPONSE_CODE, &status);
+        libcurl().easy_getinfo(curl, CURLINFO_RESPONSE_CODE, &status);
         answer.status = static_cast<int>(status);
         const char* type = nullptr;
-        curl_easy_getinfo(curl, CURLINFO_CONTENT_TYPE, &type);
+        libcurl().easy_getinfo(curl, CURLINFO_CONTENT_TYPE, &type);
         answer.content_type = type ? type : "";
         has_begun = true;
         if (sink && is_success()) sink->begin(answer);
@@ -109,16 +103,11 @@ struct Http::Transfer {
     void take(std::string_view bytes) {
         if (!has_begun) begin();
         received += bytes.size();
-        if (!is_success()) {
+        is_too_large = received > request.most_bytes;
+        if (!is_success())
             answer.body += bytes.substr(0, kMostRefusalBytes - std::min(kMostRefusalBytes, answer.body.size()));
-            if (received > request.most_bytes) is_too_large = true;
-        } else if (received > request.most_bytes) {
-            is_too_large = true;
-        } else if (sink) {
-            sink->piece(bytes);
-        } else {
-            answer.body += bytes;
-        }
+        else if (!is_too_large && sink) sink->piece(bytes);
+        else if (!is_too_large) answer.body += bytes;
     }
 
     static std::size_t on_bytes(char* bytes, std::size_t, std::size_t count, void* self) {
@@ -145,7 +134,6 @@ Http::Http(const Address& service, const Access& access) : service_{service.serv
                     fmt::format("{} is not encrypted, and the user or token of {} would be readable on the way; name the "
                                 "archive by https://",
                                 service.service, access.credentials.origin));
-    set_up_once();
     handle_ = std::make_unique<Handle>();
     if (!handle_->curl) throw std::bad_alloc();
 }
@@ -171,7 +159,7 @@ void Http::choose_access() {
 
 void Http::prepare(const Request& request, const std::string& url, Transfer& transfer) {
     Handle& handle = *handle_;
-    curl_easy_reset(handle.curl);  // the connection stays
+    libcurl().easy_reset(handle.curl);  // the connection stays
     handle.reason[0] = '\0';
     handle.set(CURLOPT_ERRORBUFFER, handle.reason.data());
     handle.set(CURLOPT_URL, url.c_str());
@@ -204,9 +192,9 @@ void Http::prepare(const Request& request, const std::string& url, Transfer& tra
 Error Http::failure(int code, const Request& request, const Transfer& transfer) const {
     const std::string host = service_.host();
     const std::string reason =
-        printable_utf8(handle_->reason[0] ? handle_->reason.data() : curl_easy_strerror(static_cast<CURLcode>(code)));
+        printable_utf8(handle_->reason[0] ? handle_->reason.data() : libcurl().easy_strerror(static_cast<CURLcode>(code)));
     double seconds = 0;
-    curl_easy_getinfo(handle_->curl, CURLINFO_PRETRANSFER_TIME, &seconds);
+    libcurl().easy_getinfo(handle_->curl, CURLINFO_PRETRANSFER_TIME, &seconds);
     const bool was_reached = seconds > 0;
     if (transfer.is_too_large)
         return {ErrorKind::too_large,
@@ -228,7 +216,7 @@ Error Http::failure(int code, const Request& request, const Transfer& transfer) 
 
 std::string Http::redirected(const std::string& url) const {
     const char* next = nullptr;
-    curl_easy_getinfo(handle_->curl, CURLINFO_REDIRECT_URL, &next);
+    libcurl().easy_getinfo(handle_->curl, CURLINFO_REDIRECT_URL, &next);
     if (!next) return "";
     const std::string here = origin_of(url.c_str()), there = origin_of(next);
     if (here == there) return next;
@@ -242,7 +230,7 @@ Answer Http::ask(const Request& request, const Work& work, AnswerSink* sink) {
     for (int redirects = 0;; ++redirects) {
         Transfer transfer{.request = request, .work = work, .sink = sink, .curl = handle_->curl};
         prepare(request, url, transfer);
-        const CURLcode code = curl_easy_perform(handle_->curl);
+        const CURLcode code = libcurl().easy_perform(handle_->curl);
         if (transfer.failure) std::rethrow_exception(transfer.failure);
         if (code != CURLE_OK) {
             work.check();

@@ -13,6 +13,7 @@
 #include "archive/dicom_json.h"
 #include "archive/refusal.h"
 #include "kontur/base/error.h"
+#include "kontur/io/dicom/dicom_identity.h"
 
 namespace kontur::archive {
 namespace {
@@ -68,10 +69,6 @@ std::vector<json> ask_all(Http& http, const std::string& path, const char* uid_t
                         fmt::format("{} lists more than {} entries", http.service().host(), kMostEntries));
         if (all.size() == before) return all;
     }
-}
-
-std::string readable_date(const std::string& stored) {
-    return stored.size() == 8 ? stored.substr(0, 4) + "-" + stored.substr(4, 2) + "-" + stored.substr(6) : stored;
 }
 
 /// YYYYMMDD of YYYY-MM-DD.

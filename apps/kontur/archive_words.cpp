@@ -44,8 +44,7 @@ std::string only_series(const std::vector<Series>& all, const Address& study) {
 }
 
 fs::path fetched(Address address, const std::optional<std::string>* series, const ArchiveWords& words, Console& console) {
-    if (address.study_uid.empty())
-        throw Error(ErrorKind::invalid_input, fmt::format("{0} names no study; kontur find {0} lists them", address.text()));
+    archive::check_names_study(address);
     Http http(address, access_of(words.options));
     if (!address.instance_uid.empty()) return archive::fetch_object_to_cache(http, address, console.work());
     const bool is_study = address.series_uid.empty();

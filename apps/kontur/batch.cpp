@@ -25,6 +25,7 @@
 #include "kontur/base/parallel.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/bytes/check_json.h"
+#include "kontur/io/bytes/folders.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
 
@@ -61,9 +62,7 @@ public:
     Journal(const fs::path& table, const fs::path& folder)
         : base_(table.has_parent_path() ? table.parent_path() : fs::path(".")),
           folder_(folder.empty() ? base_ / (table.stem().string() + ".journal") : folder) {
-        std::error_code failure;
-        fs::create_directories(folder_, failure);
-        if (failure) throw Error(ErrorKind::io, fmt::format("cannot make {}: {}", folder_.string(), failure.message()));
+        make_folder(folder_);
         folder_ = fs::absolute(folder_);
     }
 

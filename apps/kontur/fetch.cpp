@@ -49,8 +49,7 @@ void fetch_study(archive::Http& http, const Address& study, const FetchCommand& 
 
 void run(const FetchCommand& command, Console& console) {
     const Address address = archive::parse_address(command.address);
-    if (address.study_uid.empty())
-        throw Error(ErrorKind::invalid_input, fmt::format("{0} names no study; kontur find {0} lists them", address.text()));
+    archive::check_names_study(address);
     if (!command.modality.empty() && !address.series_uid.empty())
         throw Error(ErrorKind::invalid_input, "--modality chooses series of a study; the address names one already");
     archive::Http http(address, access_of(command.access));

@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "drawn_images.h"
 #include "kontur/base/error.h"
+#include "kontur/io/bytes/folders.h"
 #include "kontur/io/dicom/dicom_drawings.h"
 #include "kontur/io/image.h"
 #include "kontur/shape/repeated_contours.h"
@@ -32,14 +32,10 @@ ImageInput input_of(const fs::path& path, const viewer::ImageChoice& choice) {
     return input;
 }
 
-/// Where the user's programs keep what he did not place himself (the XDG base directory specification).
 fs::path data_folder() {
-    const char* xdg = std::getenv("XDG_DATA_HOME");
-    const char* home = std::getenv("HOME");
-    const bool has_xdg = xdg && fs::path(xdg).is_absolute();
-    if (!has_xdg && !(home && fs::path(home).is_absolute()))
-        throw Error(ErrorKind::invalid_input, "there is no home folder to keep the project in; give --project");
-    fs::path folder = (has_xdg ? fs::path(xdg) : fs::path(home) / ".local" / "share") / "kontur";
+    const std::optional<fs::path> data = user_folder("XDG_DATA_HOME", ".local/share");
+    if (!data) throw Error(ErrorKind::invalid_input, "there is no home folder to keep the project in; give --project");
+    fs::path folder = *data / "kontur";
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)

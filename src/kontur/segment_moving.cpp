@@ -92,9 +92,7 @@ std::vector<std::string> warnings_of(const Moments& moments, const std::vector<D
 
 /// The masks of a moving object at all times.
 std::vector<Mask> masks_at(std::span<const double> times, const MovingFit& fit, const Work& work) {
-    std::vector<Mask> of_moments;
-    for (const DrawnMoment& moment : fit.moments) of_moments.push_back(moment.segmentation.mask);
-    const MaskCourse course(fit.function, std::move(of_moments), work);
+    const MaskCourse course = fit.mask_course(work);
     std::vector<Mask> masks(times.size());
     parallel_for(static_cast<std::int64_t>(times.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
@@ -127,6 +125,22 @@ std::string volumes_csv(const std::vector<double>& times, const VolumeCurve& cur
                         curve.volumes_ml[n], contours, phase);
     }
     return text;
+}
+
+MaskCourse MovingFit::mask_course(const Work& work) const {
+    std::vector<Mask> masks;
+    for (const DrawnMoment& moment : moments) masks.push_back(moment.segmentation.mask);
+    return {function, std::move(masks), work};
+}
+
+std::vector<std::vector<Vec3>> MovingFit::starts() const {
+    std::vector<std::vector<Vec3>> all;
+    for (const DrawnMoment& moment : moments) {
+        std::vector<Vec3>& points = all.emplace_back();
+        for (const Contour& contour : moment.set.contours)
+            points.insert(points.end(), contour.points.begin(), contour.points.end());
+    }
+    return all;
 }
 
 DrawnMoment MovingFitter::fitted(ContourSet set, const Work& work) const {

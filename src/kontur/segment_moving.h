@@ -39,6 +39,11 @@ struct MovingFit {
     std::vector<DrawnMoment> moments;
     std::vector<std::string> warnings;
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order
+
+    /// Masks at all times, on the grid of the fit.
+    MaskCourse mask_course(const Work& work = {}) const;
+    /// Points of each moment's contours, mm: where a MeshCourse starts.
+    std::vector<std::vector<Vec3>> starts() const;
 };
 
 /// Fits objects that move, on one grid. A moment whose contours are those of the fit before is not fitted again.

@@ -399,3 +399,10 @@ def expired_certificate(folder):
     run("req", "-newkey", "rsa:2048", "-nodes", "-subj", "/CN=127.0.0.1", "-keyout", "old.key", "-out", "old.csr")
     run("ca", "-batch", "-selfsign", "-config", "ca.cnf", "-keyfile", "old.key", "-in", "old.csr", "-out", "old.pem", "-startdate", "20200101000000Z", "-enddate", "20200201000000Z")
     return folder / "old.pem", folder / "old.key"
+
+
+def test_only_who_asks_an_archive_loads_libcurl(archive):
+    for words, loads in ((["--version"], False), (["find", archive.address], True)):
+        result = kontur(*words, LD_DEBUG="files")
+        assert result.returncode == 0 and "libc.so.6" in result.stderr
+        assert ("libcurl" in result.stderr) == loads, words

@@ -42,15 +42,7 @@ const MovingFit& fit() {
     return made;
 }
 
-std::vector<std::vector<Vec3>> starts() {
-    std::vector<std::vector<Vec3>> all;
-    for (const DrawnMoment& moment : fit().moments) {
-        all.emplace_back();
-        for (const Contour& contour : moment.set.contours)
-            all.back().insert(all.back().end(), contour.points.begin(), contour.points.end());
-    }
-    return all;
-}
+std::vector<std::vector<Vec3>> starts() { return fit().starts(); }
 
 const MeshCourse& course() {
     static const MeshCourse made(fit().function, starts(), 1.5);

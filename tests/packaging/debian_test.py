@@ -107,6 +107,7 @@ def test_they_name_what_they_need(packages):
         depends = field(packages[name], "Depends")
         for library in ("libc6", "libcairo2", "libdcmtk17", "libopenblas0", "libpng16-16"):
             assert library in depends, (name, depends)
+    assert "libcurl4" in field(packages["kontur"], "Depends")
     assert "libkontur0.1 (= " in field(packages["libkontur-dev"], "Depends")
     if "python3-kontur" in packages:
         assert "python3-numpy" in field(packages["python3-kontur"], "Depends")

@@ -22,16 +22,8 @@ FittedMotion::FittedMotion(const State& state, Id structure, const Grid& grid, i
     std::iota(frames_.begin(), frames_.end(), 1);
     try {
         MovingFit fit = MovingFitter(grid, {.smoothing = structure_.smoothing, .drawn_on = grid}).fit(set_, frames_, work);
-        std::vector<Mask> masks;
-        std::vector<std::vector<Vec3>> starts;
-        for (const DrawnMoment& moment : fit.moments) {
-            masks.push_back(moment.segmentation.mask);
-            std::vector<Vec3>& points = starts.emplace_back();
-            for (const Contour& contour : moment.set.contours)
-                points.insert(points.end(), contour.points.begin(), contour.points.end());
-        }
-        masks_.emplace(fit.function, std::move(masks), work);
-        meshes_.emplace(fit.function, starts, kSpacingFraction * diameter_mm(set_), work);
+        masks_.emplace(fit.mask_course(work));
+        meshes_.emplace(fit.function, fit.starts(), kSpacingFraction * diameter_mm(set_), work);
         moments_ = std::move(fit.moments);
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", structure_.name, error.what()));

@@ -8,7 +8,6 @@
 #include "archive/query.h"
 #include "archive/rendered.h"
 #include "kontur/base/error.h"
-#include "viewer/model/model_json.h"
 
 namespace kontur::viewer {
 namespace {
@@ -17,15 +16,9 @@ using archive::Address;
 using archive::Http;
 using nlohmann::json;
 
-ArchiveReply json_reply(const json& value) { return {"application/json", to_text(value)}; }
+std::string uid_of(const Target& target, const char* name) { return checked_uid(target.parameter(name).value_or(""), name); }
 
-std::string uid_of(const Target& target, const char* name) {
-    const std::string uid = target.parameter(name).value_or("");
-    if (!archive::is_uid(uid)) throw Error(ErrorKind::invalid_input, fmt::format("'{}' is no UID", name));
-    return uid;
-}
-
-ArchiveReply studies(Http& http, const Target& target, const Work& work) {
+StartReply studies(Http& http, const Target& target, const Work& work) {
     const auto text = [&](const char* name) { return target.parameter(name).value_or(""); };
     const archive::Studies all = archive::find_studies(
         http, {.name = text("name"), .patient_id = text("id"), .date = text("date"), .modality = text("modality")}, work);
@@ -41,7 +34,7 @@ ArchiveReply studies(Http& http, const Target& target, const Work& work) {
     return json_reply({{"studies", list}, {"has_more", all.has_more}});
 }
 
-ArchiveReply series(Http& http, const Target& target, const Work& work) {
+StartReply series(Http& http, const Target& target, const Work& work) {
     json list = json::array();
     for (const archive::Series& one : archive::find_series(http, uid_of(target, "study"), work))
         list.push_back({{"uid", one.uid},
@@ -55,14 +48,19 @@ ArchiveReply series(Http& http, const Target& target, const Work& work) {
 
 }  // namespace
 
-std::optional<ArchiveReply> archive_api(const NamedArchive& named, const Target& target, const StopToken& stop) {
+std::string checked_uid(std::string uid, std::string_view name) {
+    if (!archive::is_uid(uid)) throw Error(ErrorKind::invalid_input, fmt::format("'{}' is no UID", name));
+    return uid;
+}
+
+std::optional<StartReply> archive_api(const NamedArchive& named, const Target& target, const StopToken& stop) {
     Http http(named.service, named.access);
     const Work work{.stop = stop};
     if (target.path == "/api/archive/studies") return studies(http, target, work);
     if (target.path == "/api/archive/series") return series(http, target, work);
     if (target.path != "/api/archive/picture") return std::nullopt;
     const Address address{named.service.service, uid_of(target, "study"), uid_of(target, "series"), ""};
-    return ArchiveReply{"image/jpeg", archive::picture_of(http, address, work)};
+    return StartReply{"image/jpeg", archive::picture_of(http, address, work)};
 }
 
 }  // namespace kontur::viewer

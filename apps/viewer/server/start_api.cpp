@@ -10,13 +10,12 @@
 #include "viewer/images/dicom_choice.h"
 #include "viewer/model/message_checks.h"
 #include "viewer/model/model_json.h"
+#include "viewer/server/archive_api.h"
 
 namespace kontur::viewer {
 namespace {
 
 using nlohmann::json;
-
-StartReply json_reply(const json& value) { return {"application/json", to_text(value)}; }
 
 std::string needed(const Target& target, const char* name) {
     const auto value = target.parameter(name);
@@ -40,11 +39,7 @@ void keep_arrangement(Workspace& workspace, const std::string& body) {
 
 void open_archived(Workspace& workspace, const std::string& body) {
     const json document = parsed_request(body, "ArchivedRequest");
-    const auto uid = [&](const char* name) {
-        const std::string text = document[name].get<std::string>();
-        if (!archive::is_uid(text)) throw Error(ErrorKind::invalid_input, fmt::format("'{}' is no UID", name));
-        return text;
-    };
+    const auto uid = [&](const char* name) { return checked_uid(document[name].get<std::string>(), name); };
     workspace.open_archived(uid("study"), uid("series"), document["title"].get<std::string>());
 }
 
@@ -73,6 +68,8 @@ private:
 
 }  // namespace
 
+StartReply json_reply(const json& value) { return {"application/json", to_text(value)}; }
+
 OpenRequest open_request_from(const json& document) {
     // Of a second image it is a number.
     const bool is_moved = document.contains("image") && document["image"].is_string();
@@ -92,11 +89,7 @@ std::optional<StartReply> start_api(Workspace& workspace, const std::string& met
     if (method == "GET" && target.path == "/api/thumbnail")
         return StartReply{"application/octet-stream", (target.parameter("volume") ? frame_thumbnail : thumbnail)(
                                                           places.resolved(needed(target, "file")), frame_of(target))};
-    if (method == "GET" && target.path.starts_with("/api/archive/")) {
-        std::optional<ArchiveReply> reply = archive_api(workspace.archive(), target, stop);
-        if (!reply) return std::nullopt;
-        return StartReply{std::move(reply->content_type), std::move(reply->body)};
-    }
+    if (method == "GET" && target.path.starts_with("/api/archive/")) return archive_api(workspace.archive(), target, stop);
     if (method != "POST") return std::nullopt;
     if (target.path == "/api/open") workspace.open(open_request_from(parsed_request(body, "OpenRequest")));
     else if (target.path == "/api/archive/open") open_archived(workspace, body);

@@ -17,6 +17,7 @@ struct StartReply {
     std::string content_type;
     std::string body;
 };
+StartReply json_reply(const nlohmann::json& value);
 std::optional<StartReply> start_api(Workspace& workspace, const std::string& method, const Target& target,
                                     const std::string& body, const StopToken& stop);
 

@@ -16,9 +16,9 @@
 #include <string_view>
 #include <thread>
 
+#include "archive/http.h"
 #include "kontur/base/stop.h"
 #include "kontur/base/work.h"
-#include "viewer/server/archive_api.h"
 #include "viewer/session/session.h"
 #include "viewer/store/arrangements.h"
 #include "viewer/store/places.h"
@@ -35,6 +35,12 @@ struct OpenRequest {
 
 /// The path that stands for the built-in example image.
 inline constexpr const char* kExample = "phantom";
+
+/// The archive that the command named: the only one that pages reach, and that without its address or its password.
+struct NamedArchive {
+    archive::Address service;
+    archive::Access access;
+};
 
 /// What the server serves: a start page until something is open, then its session, then the start page again. One at a time,
 /// for all pages; reading runs in the background. Safe for concurrent use.

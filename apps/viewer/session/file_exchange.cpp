@@ -207,14 +207,11 @@ void write_motion(SessionState& s, const State& now, const ExportChoice& choice,
 }
 
 /// With their frames where the image has several, and the cycle.
-ContourSet contours_in_time(const SessionState& s, const State& now, Id structure) {
-    ContourSet set = contour_set(now, structure);
-    if (s.image.times.count() < 2 || structure_of(now, structure).mask) return set;
-    std::vector<int> times;
-    for (const auto& [id, contour] : now.contours)
-        if (contour->structure == structure) times.push_back(time_of(now, *contour));
-    const bool is_of_opened = std::ranges::all_of(times, [&](int time) { return time == now.opened_time; });
-    if (!is_of_opened) set_frames(set, times, now);
+ContourSet contours_in_time(const State& now, Id structure) {
+    ContourSet set = contour_set(now, structure);  // with frames, if it moves
+    const std::set<int> times = drawn_times(now, structure);
+    if (times.size() == 1 && *times.begin() != now.opened_time && !structure_of(now, structure).mask)
+        set_frames(set, std::vector(set.contours.size(), *times.begin()), now);
     return set;
 }
 
@@ -222,7 +219,7 @@ ContourSet contours_in_time(const SessionState& s, const State& now, Id structur
 void write_one(SessionState& s, const State& now, const ExportChoice& choice, const fs::path& path, const Work& work) {
     const std::string& name = choice.name;
     const Structure& chosen = structure_of(now, *choice.structure);
-    const ContourSet set = contours_in_time(s, now, chosen.id);
+    const ContourSet set = contours_in_time(now, chosen.id);
     const ImageReference image = [&] {
         const std::scoped_lock lock(s.mutex);
         return s.project.image();

@@ -32,16 +32,6 @@ std::vector<double> all_frames(int times) {
     return frames;
 }
 
-std::vector<std::vector<Vec3>> starts_of(const std::vector<DrawnMoment>& moments) {
-    std::vector<std::vector<Vec3>> starts;
-    for (const DrawnMoment& moment : moments) {
-        std::vector<Vec3>& points = starts.emplace_back();
-        for (const Contour& contour : moment.set.contours)
-            points.insert(points.end(), contour.points.begin(), contour.points.end());
-    }
-    return starts;
-}
-
 std::map<int, std::vector<Contour>> sections_of(const std::vector<DrawnMoment>& moments) {
     std::map<int, std::vector<Contour>> sections;
     for (const DrawnMoment& moment : moments) {
@@ -250,11 +240,9 @@ void Motions::fit(Id structure, const StopToken& stop) {
     }
     const Work work{.stop = stop};
     const MovingFit fitted = fitter->fit(task.set, all_frames(task.times), work);
-    const auto meshes = std::make_shared<const MeshCourse>(fitted.function, starts_of(fitted.moments),
-                                                           kSpacingFraction * diameter_mm(task.set), work);
-    std::vector<Mask> masks;
-    for (const DrawnMoment& moment : fitted.moments) masks.push_back(moment.segmentation.mask);
-    const auto mask_course = std::make_shared<const MaskCourse>(fitted.function, std::move(masks), work);
+    const auto meshes =
+        std::make_shared<const MeshCourse>(fitted.function, fitted.starts(), kSpacingFraction * diameter_mm(task.set), work);
+    const auto mask_course = std::make_shared<const MaskCourse>(fitted.mask_course(work));
     show(structure, stop, [&](Made& made, Motion& motion) {
         made.meshes = meshes;
         made.masks = mask_course;

@@ -9,7 +9,7 @@ namespace kontur {
 struct StopState;
 
 /// Says whether work shall end early. A default-constructed one never says so. Cheap to copy; safe to read from any thread.
-/// These three stand for StopToken, StopSource and StopCallback, which libc++ lacks before version 20.
+/// These three are for std::stop_token, std::stop_source and std::stop_callback, which libc++ lacks before version 20.
 class StopToken {
 public:
     StopToken() = default;

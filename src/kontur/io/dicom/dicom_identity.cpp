@@ -22,12 +22,6 @@ std::string readable_name(const std::string& stored) {
     return second.empty() ? alphabetic.substr(0, family) : alphabetic.substr(0, family) + ", " + second;
 }
 
-std::string readable_date(const std::string& stored) {
-    const bool is_date = stored.size() == 8 &&
-                         std::all_of(stored.begin(), stored.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-    return is_date ? stored.substr(0, 4) + "-" + stored.substr(4, 2) + "-" + stored.substr(6) : stored;
-}
-
 /// PS3.3 C.8.9.1 (Units of PET), C.8.8.3 (DoseUnits), C.11.1 (RescaleType).
 std::string unit_of(DcmItem& item, const std::string& modality) {
     static constexpr std::array<std::pair<const char*, const char*>, 8> kUnits{{{"BQML", "Bq/ml"},
@@ -48,6 +42,12 @@ std::string unit_of(DcmItem& item, const std::string& modality) {
 }
 
 }  // namespace
+
+std::string readable_date(const std::string& stored) {
+    const bool is_date = stored.size() == 8 &&
+                         std::all_of(stored.begin(), stored.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    return is_date ? stored.substr(0, 4) + "-" + stored.substr(4, 2) + "-" + stored.substr(6) : stored;
+}
 
 DicomIdentity dicom_identity(const std::filesystem::path& file) {
     dcmtk::set_up();

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
 import { launch } from "./browsers";
-import { circle, cleanUp, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { circle, cleanUp, openBeating, temporaryFolder, type Server, type Viewer } from "./support";
 
 const folder = temporaryFolder();
 const FRAMES = 8;
@@ -16,12 +16,9 @@ let viewer: Viewer;
 cleanUp(folder, () => [browser, server]);
 
 before(async () => {
-  const path = join(folder.path, "beating.nii");
-  writeBallImage(path, undefined, ...Array.from({ length: FRAMES }, (_, n) => radius_mm(n + 1)));
   browser = await launch();
-  server = await Server.startAt({ HOME: folder.path }, folder.path, path, "--frame", "1");
-  viewer = await Viewer.open(browser, server.address);
-  await viewer.closeHint();
+  const radii = Array.from({ length: FRAMES }, (_, n) => radius_mm(n + 1));
+  [server, viewer] = await openBeating(folder, browser, radii, 1);
 });
 
 const frame = () => viewer.page.locator("[data-test=time-frame]").textContent();

@@ -163,6 +163,16 @@ export function cleanUp(folder: Folder, opened: () => (Browser | Server | undefi
   });
 }
 
+/** The image of a ball that beats, `beating.nii` in the folder, opened at a frame (from 1) in a page of its own. */
+export async function openBeating(folder: Folder, browser: Browser, radii_mm: number[], frame: number): Promise<[Server, Viewer]> {
+  const path = join(folder.path, "beating.nii");
+  writeBallImage(path, undefined, ...radii_mm);
+  const server = await Server.startAt({ HOME: folder.path }, folder.path, path, "--frame", String(frame));
+  const viewer = await Viewer.open(browser, server.address);
+  await viewer.closeHint();
+  return [server, viewer];
+}
+
 /** The image of a ball, opened for each test by a server, with a project and in a page of their own. */
 export class BallVisits {
   readonly folder = temporaryFolder();

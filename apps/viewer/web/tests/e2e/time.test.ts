@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
 import { launch } from "./browsers";
-import { circle, cleanUp, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { circle, cleanUp, openBeating, temporaryFolder, writeBallImage, type Server, type Viewer } from "./support";
 
 const folder = temporaryFolder();
 const RADII_MM = [40, 32, 24, 16];
@@ -15,13 +15,9 @@ let viewer: Viewer;
 cleanUp(folder, () => [browser, server]);
 
 before(async () => {
-  const path = join(folder.path, "beating.nii");
-  writeBallImage(path, undefined, ...RADII_MM);
   browser = await launch();
   writeBallImage(join(folder.path, "smaller.nii"), undefined, ...RADII_MM.map((radius) => radius - 10));
-  server = await Server.startAt({ HOME: folder.path }, folder.path, path, "--frame", "2");
-  viewer = await Viewer.open(browser, server.address);
-  await viewer.closeHint();
+  [server, viewer] = await openBeating(folder, browser, RADII_MM, 2);
 });
 
 const frame = () => viewer.page.locator("[data-test=time-frame]").textContent();

@@ -170,25 +170,18 @@ void measure(const Structure& structure, const std::string& kind, int count, boo
             kAlone);
     };
     const std::string without = scores(mask_of(fitted.function), structure.truth);
-    const auto print = [&](const char* method, const ImageReport& r, double seconds, const std::string& with) {
-        fmt::print("{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.2f},{:.2f}\n", structure.name, kind, count,
-                   by_hand ? "hand" : "exact", method, without, with, r.walked ? "walked" : name(r.verdict),
-                   r.error_without_mm, r.error_with_mm, r.largest_move_mm, r.on_contours_mm / voxel, fit_seconds, seconds);
-        std::fflush(stdout);
-    };
-    const char* methods = std::getenv("KONTUR_IMAGES_METHODS");
-    for (const bool gate : {true, false}) {
-        if (!gate && (!methods || std::string(methods).find("ungated") == std::string::npos)) continue;
-        const double finish_start = cpu_seconds();
-        const ImageFit with_image = follow_image(
-            {drawing, prepared, fitted}, structure.image,
-            [&](const ContourSet& part) { return fit_coarsely(part, stages, kAlone); }, {.fit = stages.fit, .gate = gate},
-            kAlone);
-        const double seconds = cpu_seconds() - finish_start;
-        print(gate ? "gated" : "ungated", with_image.report, seconds,
-              with_image.report.verdict == ImageVerdict::used ? scores(mask_of(with_image.fitted.function), structure.truth)
-                                                              : without);
-    }
+    const double image_start = cpu_seconds();
+    const ImageFit with_image = follow_image(
+        {drawing, prepared, fitted}, structure.image,
+        [&](const ContourSet& part) { return fit_coarsely(part, stages, kAlone); }, {.fit = stages.fit}, kAlone);
+    const double seconds = cpu_seconds() - image_start;
+    const ImageReport& r = with_image.report;
+    fmt::print("{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.2f},{:.2f}\n", structure.name, kind, count,
+               by_hand ? "hand" : "exact", without,
+               r.verdict == ImageVerdict::used ? scores(mask_of(with_image.fitted.function), structure.truth) : without,
+               r.walked ? "walked" : name(r.verdict), r.error_without_mm, r.error_with_mm, r.largest_move_mm,
+               r.on_contours_mm / voxel, fit_seconds, seconds);
+    std::fflush(stdout);
 }
 
 Structure read_structure(const std::vector<std::string>& words) {

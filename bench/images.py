@@ -3,7 +3,7 @@
 """What the image between the contours is worth: structures cut by few planes, segmented without and with their image.
 
 Usage: bench/images.py --program build/release/bin/kontur_images --csv FILE [--data SCANS] [--fresh FRESH] [--new NEW]
-                       [--set tune|report|fresh|new] [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--methods gated,ungated] [--jobs 1] [--shift-mm 0]
+                       [--set tune|report|fresh|new] [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--jobs 1] [--shift-mm 0]
        bench/images.py --csv FILE --tables
 
 SCANS, FRESH and NEW are laid out as image_sources.py says; what is not there is left out, which is said. Of 30 drawings (axial,
@@ -24,7 +24,7 @@ import sys
 
 import image_sources
 
-FIELDS = ["structure", "kind", "planes", "hand", "method", "dice_without", "hd95_without_mm", "mean_without_mm", "dice", "hd95_mm",
+FIELDS = ["structure", "kind", "planes", "hand", "dice_without", "hd95_without_mm", "mean_without_mm", "dice", "hd95_mm",
           "mean_mm", "use", "error_without_mm", "error_with_mm", "largest_move_mm", "on_contours_voxels", "fit_cpu_s", "image_cpu_s"]
 
 
@@ -75,7 +75,7 @@ def measure(options):
     def run(task):
         call, drawings = task
         with open(options.csv, "a", encoding="utf-8") as file:
-            result = subprocess.run(call, env=environment | {"KONTUR_IMAGES": drawings, "KONTUR_IMAGES_METHODS": options.methods},
+            result = subprocess.run(call, env=environment | {"KONTUR_IMAGES": drawings},
                                     stdout=subprocess.PIPE, text=True)
             file.write(result.stdout)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
@@ -98,18 +98,16 @@ def tables(options):
     rows, sets = measured(options.csv), image_sources.sets()
     groups = collections.OrderedDict()
     for row in rows:
-        if row["method"] not in options.methods.split(","):
-            continue
         which = sets[row["structure"]]
         for group in ("all", f"{row['planes']} planes, {row['hand']}", f"{row['kind']}, {row['hand']}"):
-            groups.setdefault((row["method"], which, group), []).append(row)
+            groups.setdefault((which, group), []).append(row)
         if "sarcoma" in row["structure"]:
-            groups.setdefault((row["method"], which, "sarcomas"), []).append(row)
+            groups.setdefault((which, "sarcomas"), []).append(row)
     print("| set, drawings | n | Dice without | with | mean gain | median | worst | worse by > .005 | by > .01 | mean distance mm | used | walked | CPU s |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for key in sorted(groups):
         print(line(", ".join(key), groups[key]))
-    worst = sorted((row for row in rows if row["method"] == "gated"), key=lambda row: float(row["dice"]) - float(row["dice_without"]))
+    worst = sorted(rows, key=lambda row: float(row["dice"]) - float(row["dice_without"]))
     print("\n| worst and best | drawing | without | with | held-out error mm |\n|---|---|---|---|---|")
     for row in worst[:12] + worst[-8:]:
         print(f"| {row['structure']} ({sets[row['structure']]}) | {row['kind']} {row['planes']} {row['hand']} | {row['dice_without']} | "
@@ -127,7 +125,6 @@ def main():
     parser.add_argument("--set", choices=["tune", "report", "fresh", "new"])
     parser.add_argument("--only", action="append", default=[])
     parser.add_argument("--drawings", default="")
-    parser.add_argument("--methods", default="gated")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--shift-mm", type=float, default=0)
     parser.add_argument("--tables", action="store_true")

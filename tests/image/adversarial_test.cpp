@@ -29,12 +29,9 @@ double largest_difference(const ImplicitFunction& a, const ImplicitFunction& b) 
 TEST(FollowImageAdversarial, AnImageOfOneValueChangesNothing) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     const Image image = image_of(cube_grid(2), [](const Vec3&) { return 7.0; });
-    const FollowedImage gated = follow_image_of(contours, image);
-    EXPECT_EQ(gated.with_image.report.verdict, ImageVerdict::labels) << "as a grid that was written as an image is";
-    EXPECT_EQ(largest_difference(gated.with_image.fitted.function, gated.plain.function), 0);
-    const FollowedImage forced = follow_image_of(contours, image, 0, false);
-    EXPECT_LT(forced.with_image.report.largest_move_mm, 1e-6);
-    EXPECT_LT(largest_difference(forced.with_image.fitted.function, forced.plain.function), 0.02);
+    const FollowedImage r = follow_image_of(contours, image);
+    EXPECT_EQ(r.with_image.report.verdict, ImageVerdict::labels) << "as a grid that was written as an image is";
+    EXPECT_EQ(largest_difference(r.with_image.fitted.function, r.plain.function), 0);
 }
 
 TEST(FollowImageAdversarial, NoiseAloneIsNotFollowed) {
@@ -55,7 +52,7 @@ TEST(FollowImageAdversarial, ImageShiftedDifferentlyAtEachPlaneIsNotFollowed) {
     const FollowedImage r = follow_image_of(contours, image_of(cube_grid(1.5), shifted, 8));
     EXPECT_EQ(r.with_image.report.verdict, ImageVerdict::no_help);
     EXPECT_TRUE(std::ranges::equal(r.with_image.fitted.function.weights(), r.plain.function.weights()));
-    // The same image, not shifted, helps: it is the shifts that the gate has seen.
+    // The same image, not shifted, helps: it is the shifts that are seen.
     const FollowedImage straight = follow_image_of(contours, image_of(cube_grid(1.5), body_look, 8));
     EXPECT_EQ(straight.with_image.report.verdict, ImageVerdict::used);
 }

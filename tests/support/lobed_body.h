@@ -110,14 +110,14 @@ struct FollowedImage {
     ImageFit with_image;
 };
 
-inline FollowedImage follow_image_of(const ContourSet& contours, const Image& image, int threads = 0, bool gate = true) {
+inline FollowedImage follow_image_of(const ContourSet& contours, const Image& image, int threads = 0) {
     const Work work{.threads = threads};
     Drawing drawing = read_drawing(contours, FillRule::even_odd);
     StageOptions stages = stage_options({}, drawing.diameter_mm());
     const PreparedContours prepared = prepare(drawing, stages.prepare, work);
     FittedFunction plain = fit(prepared, stages.fit, work);
     const auto fit_part = [&](const ContourSet& part) { return fit_coarsely(part, stages, {.threads = 1}); };
-    ImageFit with_image = follow_image({drawing, prepared, plain}, image, fit_part, {.fit = stages.fit, .gate = gate}, work);
+    ImageFit with_image = follow_image({drawing, prepared, plain}, image, fit_part, {.fit = stages.fit}, work);
     return {std::move(drawing), std::move(plain), std::move(with_image)};
 }
 

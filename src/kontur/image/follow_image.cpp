@@ -14,9 +14,6 @@
 namespace kontur {
 namespace {
 
-constexpr double kCautiousSlope = 0.12;  // without the gate: prior standard deviation over the distance ...
-constexpr double kCautiousImage = 0.7;   // ... and the image's error in voxels
-
 /// What speaks for the image and against it.
 struct Trial {
     std::optional<LeftOutPlanes> left_out;
@@ -143,14 +140,6 @@ ImageFit follow_image(const FittedDrawing& fit, const Image& image, const FitCon
     const Surroundings surroundings(alike, image);
     const FittedDrawing fit_alike{alike, fit.prepared, fit.fitted};
     const Question question{fit_alike, image, surroundings, options, work};
-    if (!options.gate) {
-        const double voxel = surroundings.image.voxel_mm();
-        const Beliefs cautious{[](double d) { return kCautiousSlope * d; },
-                               [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
-        ImageFit result = question.fit_of(question.movement(cautious));
-        result.report.weight = 1;
-        return result;
-    }
     const Trial trial = try_image(question, fit_contours);
     const double walking = trial.walking();
     ImageFit result = follow(question, trial, walking);

@@ -25,7 +25,6 @@ struct FittedDrawing {
 
 struct ImageOptions {
     FitOptions fit;             ///< as the contours were fitted
-    bool gate = true;           ///< false: the image is used without having shown that it helps
     std::size_t samples = 450;  ///< points of the surface at which it is asked
 };
 

@@ -32,7 +32,6 @@ std::string where_used(const ImageReport& report) {
 }
 
 std::string sentence_of_use(const ImageReport& report) {
-    if (report.planes_left_out == 0) return "the image was used between the contours, without knowing whether it helps";
     if (report.walked)
         return fmt::format(
             "the image lowers what is wrong in left-out planes from {:.2g} to {:.2g} % of the object; {}, voxel by voxel",

@@ -107,8 +107,7 @@ std::optional<HeldOutErrors> displace_planes(const Drawing& drawing, const Image
     });
     if (!tell_enough(planes)) return std::nullopt;
     const Beliefs beliefs{[](double d) { return kMostPriorSlope * d; }};
-    // The hand's wavering is no error here: what is drawn counts as right.
-    HeldOutErrors errors(planes, beliefs, kLargest * trial.by_mm + voxel, voxel, 0);
+    HeldOutErrors errors(planes, beliefs, kLargest * trial.by_mm + voxel, voxel);
     if (errors.without_mm() < kLeastDisplacement * voxel) return std::nullopt;
     return errors;
 }

@@ -12,16 +12,10 @@
 namespace kontur {
 namespace {
 
-constexpr double kMeanOfDeviation = 0.7979;  // the mean of absolute values over the standard deviation, likewise
-constexpr Rise kSureGain{0, 1};              // and of the mean gain
-constexpr std::size_t kNear = 40;            // held-out points that speak for a place
-constexpr double kLeastImage = 0.25;         // voxels: no image is better known than this
+constexpr Rise kSureGain{0, 1};       // standard errors of the mean gain
+constexpr std::size_t kNear = 40;     // held-out points that speak for a place
+constexpr double kLeastImage = 0.25;  // voxels: no image is better known than this
 constexpr Rise kSeen{kLeastImage, 2 * kLeastImage};
-
-/// What is left of an error that the hand's own, independent of it, is part of: at least half of it.
-double without_hand(double error, double hand) {
-    return std::sqrt(std::max(error * error - hand * hand, 0.25 * error * error));
-}
 
 }  // namespace
 
@@ -39,9 +33,8 @@ bool tell_enough(std::span<const PlaneErrors> planes) {
     return points >= kLeastPoints && with_points >= 2;
 }
 
-HeldOutErrors::HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs& beliefs, double limit_mm, double voxel_mm,
-                             double hand_mm)
-    : beliefs_(beliefs), limit_mm_(limit_mm), voxel_mm_(voxel_mm), hand_mm_(hand_mm) {
+HeldOutErrors::HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs& beliefs, double limit_mm, double voxel_mm)
+    : beliefs_(beliefs), limit_mm_(limit_mm), voxel_mm_(voxel_mm) {
     for (const PlaneErrors& plane : planes) {
         held_out_.insert(held_out_.end(), plane.points.begin(), plane.points.end());
         planes_ += !plane.points.empty();
@@ -67,12 +60,6 @@ double HeldOutErrors::clamped(double error_mm) const { return std::clamp(error_m
 void HeldOutErrors::add(const HeldOutPoint& point, double weight, OffsetTruth& sums) const {
     const double deviation = std::max(beliefs_.prior_mm(point.distance_mm), kLeastPrior * voxel_mm_);
     sums.add(clamped(point.reachable_mm), point.moved_mm(), weight / (deviation * deviation));
-}
-
-double HeldOutErrors::error_reduction() const {
-    const double hand = kMeanOfDeviation * hand_mm_;
-    const double without = without_hand(without_mm_, hand);
-    return without > 0 ? 1 - without_hand(with_mm_, hand) / without : 0;
 }
 
 double HeldOutErrors::weight(const Rise& enough) const {
@@ -145,7 +132,7 @@ double HeldOutErrors::image_sd(const MovingPoint& point, double weight) const {
         errors.push_back(std::abs(clamped(h->without_mm)));
         add(*h, 1 / static_cast<double>(near.size()), truth);
     }
-    const double error = without_hand(kDeviationOfMedian * 0.5 * (median(std::move(errors)) + median_without_), hand_mm_);
+    const double error = kDeviationOfMedian * 0.5 * (median(std::move(errors)) + median_without_);
     // Of errors u and what an image that is off by e of its own tells, u + e, the share u^2 / (u^2 + e^2) is true.
     const double share = weight * sure_share(truth);
     if (share == 0) return std::numeric_limits<double>::infinity();

@@ -38,8 +38,7 @@ struct PlaneErrors {
 /// Whether they have points enough, in two planes at least, to tell how far off the surface is.
 bool tell_enough(std::span<const PlaneErrors> planes);
 
-/// How much is true of the offsets that the image shows: least squares of the errors of the contours alone on them. What the
-/// hand adds to an error has nothing to do with the image and takes no part.
+/// How much is true of the offsets that the image shows: least squares of the errors of the contours alone on them.
 struct OffsetTruth {
     double products = 0, squares = 0;  ///< of the offsets with the errors, and their own; weighted sums
 
@@ -52,9 +51,7 @@ class HeldOutErrors {
 public:
     /// `planes`: that tell enough, of points at least a voxel from the other planes' contours. Larger errors count as
     /// `limit_mm`.
-    /// `hand_mm`: standard deviation of the drawn lines themselves, which no surface and no image can know.
-    HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs& beliefs, double limit_mm, double voxel_mm,
-                  double hand_mm);
+    HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs& beliefs, double limit_mm, double voxel_mm);
 
     double without_mm() const { return without_mm_; }  ///< means of the absolute errors
     double with_mm() const { return with_mm_; }
@@ -65,8 +62,8 @@ public:
     /// chance. 1 where it is below by the second share, and by a standard error over the planes.
     double weight(const Rise& enough = kHelps) const;
     static constexpr Rise kHelps{0, 0.05};
-    /// The share of the mean error that the image takes away, without what the hand adds to both.
-    double error_reduction() const;
+    /// The share of the mean error that the image takes away.
+    double error_reduction() const { return without_mm_ > 0 ? 1 - with_mm_ / without_mm_ : 0; }
     /// How far the errors without the image exceed what an image of voxels (or cells) of this edge can tell: 0 up to a
     /// quarter of one, 1 from half of one on. Contours that hold the surface better than that need no image.
     double visibility(double edge_mm) const;
@@ -85,7 +82,7 @@ private:
 
     std::vector<HeldOutPoint> held_out_;
     Beliefs beliefs_;
-    double limit_mm_, voxel_mm_, hand_mm_;
+    double limit_mm_, voxel_mm_;
     std::size_t planes_ = 0;
     std::int64_t intensities_ = 0;
     double without_mm_ = 0, with_mm_ = 0;

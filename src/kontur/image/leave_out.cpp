@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
@@ -11,7 +10,6 @@
 #include "kontur/sampling/plane_groups.h"
 #include "kontur/sampling/quantile.h"
 #include "kontur/sampling/spread_points.h"
-#include "kontur/sureness/surface_evidence.h"
 
 namespace kontur {
 namespace {
@@ -150,8 +148,7 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
         }
     });
     if (!tell_enough(errors)) return std::nullopt;
-    const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
-    LeftOutPlanes left_out{HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand),
+    LeftOutPlanes left_out{HeldOutErrors(errors, beliefs, plain->limit_mm, voxel),
                            image_cells(image, contours, kMostCells, work), std::vector<WrongCells>(folds.size())};
     if (left_out.walk_visibility() == 0) return left_out;  // no walk would count
     const double moving = left_out.moving();

@@ -29,7 +29,7 @@ struct LeftOutPlanes {
 /// Leaves out one drawn plane after another, at most 10 of them. It fits the others, lets the image move that surface, and
 /// measures how far it passes from the contours left out. Then a random walk on the image's cells begins with the moved
 /// surface; the result is how much of the plane is on the wrong side. Nothing where fewer than 3 planes were drawn or too
-/// little of them is left. What contours disagree by where they cross is their own error and not counted.
+/// little of them is left.
 std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
                                               const Work& work);
 

@@ -10,8 +10,7 @@
 namespace kontur {
 namespace {
 
-constexpr int kRounds = 6;
-constexpr double kDamping = 0.7;
+constexpr int kSweeps = 3;         // one loses .005 of Dice on hard drawings, two .003 on some; six and damped bring no more
 constexpr double kJitter = 1e-6;   // of the mean prior variance
 constexpr double kSharpest = 0.3;  // of a step: the smallest standard deviation that is believed of one point
 constexpr double kLeastCavity = 1e-9;
@@ -95,15 +94,15 @@ Offsets find_offsets(std::span<const MovingPoint> points, const OffsetPrior& pri
     std::vector<double> precision(n), information(n);
     GaussianPosterior posterior{std::vector<double>(n), std::vector<double>(n), {}};  // nothing seen yet: the prior
     for (std::size_t i = 0; i < n; ++i) posterior.variance[i] = k[i + n * i];
-    for (int round = 0; round < kRounds; ++round) {
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
         work.check();
         for (std::size_t i = 0; i < n; ++i) {
             const double inverse = 1 / posterior.variance[i];
             const double cavity = std::max(inverse - precision[i], kLeastCavity);
             const double cavity_mean = (posterior.mean[i] * inverse - information[i]) / cavity;
             const Site site = match(evidence, i, cavity, cavity_mean, most[i]);
-            precision[i] = std::lerp(precision[i], site.precision, kDamping);
-            information[i] = std::lerp(information[i], site.information, kDamping);
+            precision[i] = site.precision;
+            information[i] = site.information;
         }
         posterior = gaussian_posterior(k, precision, information);
     }

@@ -33,9 +33,9 @@ struct Offsets {
     std::vector<double> weights;  ///< of the prior covariances with the points: the mean offset anywhere else
 };
 
-/// The posterior by expectation propagation (Minka 2001; Rasmussen & Williams 2006, 3.6), all points at once. What a point
-/// shows counts as Gaussian with the moments that it leaves; a flat line of intensities says nothing. The image's errors are
-/// shared by neighbours: together they count no more than one seen with `image_sd_mm`.
+/// The posterior by three sweeps of expectation propagation (Minka 2001; Rasmussen & Williams 2006, 3.6), all points at
+/// once. What a point shows counts as Gaussian with the moments that it leaves; a flat line of intensities says nothing. The
+/// image's errors are shared by neighbours: together they count no more than one seen with `image_sd_mm`.
 Offsets find_offsets(std::span<const MovingPoint> points, const OffsetPrior& prior, const OffsetEvidence& evidence,
                      const Work& work = {});
 

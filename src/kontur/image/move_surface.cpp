@@ -12,13 +12,11 @@
 namespace kontur {
 namespace {
 
-constexpr double kSurfaceSpacing = 0.025;  // of the drawing's diameter: where the surface is asked for
-constexpr double kFollow = 0.05;           // noise of a moved point over its posterior standard deviation
-constexpr double kLeastDeviation = 0.2;    // voxels
-constexpr double kBeside = 2.24;           // how much noisier f is before and behind a moved point
-constexpr double kOutsideAlone = 0.8;      // of a place's way to the surface: none of it is nearer
-constexpr double kAnchorNoise = 0.1;       // voxels
-constexpr int kAttempts = 4;               // to keep the surface where the image was asked
+constexpr double kFollow = 0.05;         // noise of a moved point over its posterior standard deviation
+constexpr double kLeastDeviation = 0.2;  // voxels
+constexpr double kBeside = 2.24;         // how much noisier f is before and behind a moved point
+constexpr double kAnchorNoise = 0.1;     // voxels
+constexpr int kAttempts = 4;             // to keep the surface where the image was asked
 
 /// f at the moved points, and before and behind them, is what it was where they came from.
 std::vector<PointConstraint> observations(const Movement& movement, const ImplicitFunction& before, double voxel_mm,
@@ -65,26 +63,6 @@ std::vector<PointConstraint> anchors_in_planes(const Movement& movement, const S
     for (std::size_t i = 0; i < places.size(); ++i)
         anchors.push_back({.position = places[i], .value = values[i], .noise_mm = kAnchorNoise * voxel});
     return anchors;
-}
-
-/// Outside of the surface f changes as beneath.
-std::vector<PointConstraint> changes_outside(const Movement& movement, const FittedFunction& fitted, const Affine3& frame,
-                                             double radius_mm) {
-    std::vector<Vec3> surface;
-    for (const MovingPoint& p : movement.points) surface.push_back(p.position);
-    std::vector<PointConstraint> changes;
-    for (const OutsideShell& shell : kOutsideShells) {
-        const double above = shell.radii * radius_mm;
-        std::vector<Vec3> places;
-        for (const MovingPoint& p : movement.points) {
-            const Vec3 place = p.position + above * p.normal;
-            if (may_tell_outside(fitted, place) && nearest_distance(place, surface) > kOutsideAlone * above)
-                places.push_back(place);
-        }
-        for (const Vec3& place : spread(places, shell.places, frame))
-            changes.push_back({.position = place, .value = change_near(movement, place), .noise_mm = kOutsideNoise * above});
-    }
-    return changes;
 }
 
 std::vector<ImageShare> image_shares(const Movement& movement) {
@@ -146,9 +124,9 @@ ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const S
     Refit refit(prepared, fitted, options, voxel);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         work.check();
+        const auto change_mm = [&](const Vec3& p) { return change_near(movement, p); };
         ImageData data{observations(movement, fitted.function, voxel, work),
-                       changes_outside(movement, fitted, frame_of(drawing.contours), drawing.diameter_mm() / 2),
-                       [&](const Vec3& p) { return change_near(movement, p); }};
+                       changes_outside(fitted, movement.points, drawing.contours, change_mm), change_mm};
         data.values.insert(data.values.end(), anchors.begin(), anchors.end());
         FittedFunction refitted = refit.with(data, work);
         const std::vector<Vec3> strays =

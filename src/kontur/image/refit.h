@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "kontur/fit/fit.h"
+#include "kontur/sampling/moving_point.h"
 
 namespace kontur {
 
@@ -16,18 +18,14 @@ struct ImageData {
     std::function<double(const Vec3&)> change_mm = [](const Vec3&) { return 0.0; };
 };
 
-/// Outside of a surface that is moved, so far from it in radii of the drawing, about so many places tell how far f changes
-/// there: as the surface does beneath, give or take a third of the way to it. By itself f + g would go on as steeply as
-/// it is told beside the surface, and where that moves inwards become positive again.
-struct OutsideShell {
-    double radii;
-    std::size_t places;
-};
-inline constexpr OutsideShell kOutsideShells[] = {{0.25, 120}, {0.5, 60}};
-inline constexpr double kOutsideNoise = 0.3;  ///< of the distance from the surface
+inline constexpr double kSurfaceSpacing = 0.025;  ///< of the drawing's diameter: of points of the surface of a fit
 
-/// Whether a place outside is to tell that: far ones are beyond the reach of sums, and f falls there by itself.
-bool may_tell_outside(const FittedFunction& fitted, const Vec3& place);
+/// How f changes in two shells outside of its surface, of which there are points all over: as the surface does beneath, give
+/// or take a third of the way to it. By itself f + g would go on as steeply as it is told beside the surface, and where that
+/// moves inwards become positive again.
+std::vector<PointConstraint> changes_outside(const FittedFunction& fitted, std::span<const MovingPoint> surface,
+                                             const ContourSet& contours,
+                                             const std::function<double(const Vec3&)>& change_mm);
 
 /// Adds what the image says to a fit f. The result is f + g. g is the smoothest function of the same kernel that is 0 at all
 /// data of the fit, and elsewhere the image's data less f. That is the minimum of fit and image together, but for one thing:

@@ -16,7 +16,6 @@ constexpr double kLeastCrossing = 0.1;                // steps: a surface nearer
 constexpr double kAbsence = 1.5;                      // cells: so far from the walk's surface there is none
 constexpr double kNoiseOfAbsence = 0.5;               // of its distance
 constexpr std::size_t kMostAbsences = 450, kMostAnchors = 900;
-constexpr double kStepsToShell = 1.5;                         // of the lattice whose places tell of what lies outside
 constexpr double kAnchorNoise = 0.2, kMostAnchorValue = 1.5;  // cells
 
 class WalkConstraints {
@@ -72,19 +71,6 @@ public:
         return data;
     }
 
-    /// Of each shell the places of a lattice that fall into it, which goes on beyond the cells.
-    std::vector<PointConstraint> outside(const FittedFunction& before, const Affine3& frame, double radius_mm) const {
-        std::vector<PointConstraint> data;
-        for (const OutsideShell& shell : kOutsideShells) {
-            const double above = shell.radii * radius_mm, step = above / kStepsToShell;
-            std::vector<PointConstraint> all = between_depths(above, above + step, step);
-            std::erase_if(all, [&](const PointConstraint& one) { return !may_tell_outside(before, one.position); });
-            const std::vector<PointConstraint> selection = some(all, shell.places, frame);
-            data.insert(data.end(), selection.begin(), selection.end());
-        }
-        return data;
-    }
-
     /// How far the surface moves outwards near a place; 0 where no cell is below one of the two.
     double change_mm(const Vec3& p) const {
         const double change = depth_at(p, depths_.depth_mm, depths_.nearest) - depth_at(p, alone_.depth_mm, alone_.nearest);
@@ -99,26 +85,6 @@ private:
         for (int axis = 0; axis < 3; ++axis) cell[axis] = std::clamp<std::int64_t>(at[axis], 0, cells_.grid.size[axis] - 1);
         const std::size_t n = cells_.offset(cell);
         return cells_.holds(at) ? static_cast<double>(depth_mm[n]) : -distance(p, cells_.center(nearest[n]));
-    }
-
-    std::vector<PointConstraint> between_depths(double least_mm, double most_mm, double step_mm) const {
-        const double steps = step_mm / cells_.edge_mm(), beyond = most_mm / step_mm;
-        std::array<std::int64_t, 3> last{};
-        for (int axis = 0; axis < 3; ++axis)
-            last[static_cast<std::size_t>(axis)] =
-                static_cast<std::int64_t>(std::ceil(static_cast<double>(cells_.grid.size[axis]) / steps + beyond));
-        const auto first = -static_cast<std::int64_t>(std::ceil(beyond));
-        std::vector<PointConstraint> places;
-        for (std::int64_t k = first; k <= last[2]; ++k)
-            for (std::int64_t j = first; j <= last[1]; ++j)
-                for (std::int64_t i = first; i <= last[0]; ++i) {
-                    const Vec3 index{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-                    const Vec3 p = cells_.grid.index_to_mm.apply(steps * index);
-                    const double above = -depth_at(p, depths_.depth_mm, depths_.nearest);
-                    if (above < least_mm || above > most_mm || depth_at(p, alone_.depth_mm, alone_.nearest) > 0) continue;
-                    places.push_back({.position = p, .value = change_mm(p), .noise_mm = kOutsideNoise * above});
-                }
-        return places;
     }
 
     PointConstraint datum(std::size_t cell, double steps, double noise) const {
@@ -192,11 +158,16 @@ ImageData walk_data(const WalkDepths& walk, const FitDepths& alone, const Drawin
                     const Work& work) {
     const Affine3 frame = frame_of(drawing.contours);
     const WalkConstraints constraints(walk, alone.depths, options);
-    ImageData data{constraints.beside_surface(frame), constraints.outside(alone.fitted, frame, drawing.diameter_mm() / 2)};
+    ImageData data{constraints.beside_surface(frame), {}};
     for (const std::vector<PointConstraint>& more :
          {constraints.absences(frame), constraints.anchors_in_planes(alone.fitted.function, frame, work)})
         data.values.insert(data.values.end(), more.begin(), more.end());
     data.change_mm = [constraints](const Vec3& p) { return constraints.change_mm(p); };
+    const std::vector<Vec3> surface =
+        points_of_surface(alone.fitted.function, drawing.contours, kSurfaceSpacing * drawing.diameter_mm(), work);
+    data.changes =
+        changes_outside(alone.fitted, with_normals(alone.fitted.function, spread(surface, kMostAnchors, frame), work),
+                        drawing.contours, data.change_mm);
     return data;
 }
 

@@ -13,11 +13,9 @@ namespace kontur {
 namespace {
 
 // Of seven tubes the mean Dice is .964, of 30 drawings by few planes .874. kNearest: half costs the latter .0014, twice the
-// former .038. kFar: half costs tubes .060. kNoise: half or twice +-.001. kCone, kNearby: no tube, few planes at most .002.
-constexpr double kCone = 0.7;                  // cosine: of the way with both normals
-constexpr double kNearest = 3;                 // radii: nearer sections need no help
-constexpr double kFar = 8, kTooFar = 10;       // radii
-constexpr double kUneven = 2, kTooUneven = 3;  // times as far as the section before
+// former .038. kNoise: half or twice +-.001. kCone, kNearby: no tube, few planes at most .002.
+constexpr double kCone = 0.7;    // cosine: of the way with both normals
+constexpr double kNearest = 3;   // radii: nearer sections need no help
 constexpr double kValue = 0.35;  // of the depth; half leaves .01 of a straight tube away, twice makes one too thick by .03
 constexpr double kNoise = 0.2;
 constexpr double kStraight = 0.9;  // cosine: a plane that the way crosses more obliquely does not tell its direction

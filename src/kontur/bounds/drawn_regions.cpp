@@ -2,21 +2,21 @@
 #include "kontur/bounds/drawn_regions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 
 #include "kontur/base/parallel.h"
+#include "kontur/drawing/each_of_many.h"
 
 namespace kontur {
 namespace {
 
-constexpr std::size_t kLinePlaces = 24, kFewestLinePlaces = 4;  // per outline
-constexpr std::size_t kAllLinePlaces = 2400;                    // about, of a section with many of them
-
 std::vector<Vec3> places_of(const Section& section, const std::vector<Probe>& inside) {
     std::vector<Vec3> places;
     for (const Probe& probe : inside) places.push_back(section.plane.from_uv(probe.at));
-    const std::size_t share = std::clamp(kAllLinePlaces / section.outlines.size(), kFewestLinePlaces, kLinePlaces);
+    const auto share = static_cast<std::size_t>(each_of_many(section.outlines.size(), kLinePlaces));
     for (const Polygon2& outline : section.outlines) {
         const std::size_t stride = std::max<std::size_t>(1, outline.size() / share);
         for (std::size_t i = 0; i < outline.size(); i += stride) places.push_back(section.plane.from_uv(outline[i]));
@@ -43,11 +43,10 @@ GroupedPlaces::GroupedPlaces(std::vector<Vec3> places) : places_(std::move(place
 /// Halves them across their widest axis until few are left.
 void GroupedPlaces::group(std::size_t begin, std::size_t end) {
     constexpr std::size_t kMost = 16;
-    constexpr double kRounding = 1 + 1e-9;
     const auto at = [&](std::size_t i) { return places_.begin() + static_cast<std::ptrdiff_t>(i); };
     const Box3 box = bounding_box(std::span(at(begin), at(end)));
     if (end - begin <= kMost) {
-        groups_.push_back({box.center(), kRounding * box.diagonal() / 2, begin, end});
+        groups_.push_back({box.center(), kRoundedUp * box.diagonal() / 2, begin, end});
         return;
     }
     const Vec3 size = box.size();
@@ -66,8 +65,9 @@ std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& wo
             std::vector<Probe> inside = probes(section);
             std::vector<Vec3> places = places_of(section, inside);
             const Ball3 ball = smallest_ball(places);
-            found[s].emplace(
-                DrawnRegion{section, SectionSearch(section), std::move(inside), GroupedPlaces(std::move(places)), ball, {}});
+            const double radius_mm = std::sqrt(std::ranges::max(areas_without_holes(section)) / std::numbers::pi);
+            found[s].emplace(DrawnRegion{
+                section, SectionSearch(section), std::move(inside), GroupedPlaces(std::move(places)), ball, radius_mm, {}});
             for (const Section& other : planes.sections)
                 if (&other != &section) append_crossings(other, *found[s]);
         }

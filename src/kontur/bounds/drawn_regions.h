@@ -56,6 +56,7 @@ struct DrawnRegion {
     std::vector<Probe> inside;  ///< a lattice over the region
     GroupedPlaces places;       ///< the same and some of its lines, mm
     Ball3 ball;                 ///< around the places
+    double radius_mm;           ///< of the circle with the area of its largest outline, without its holes
     std::vector<OutsideCrossing> crossings;
 };
 
@@ -68,5 +69,16 @@ double faded(double noise_mm, double belief);
 
 /// Bounds that are believed less than this are left out: their noise is ten thousand times as large.
 constexpr double kLeastBelief = 0.01;
+
+/// Places along an outline that tell where it runs.
+constexpr double kLinePlaces = 24;
+
+/// Sections are of one tube up to so many radii, fading out; kFar: half costs tubes .060.
+constexpr double kFar = 8, kTooFar = 10;
+/// ... and where they are so many times as far apart as from the sections before them.
+constexpr double kUneven = 2, kTooUneven = 3;
+
+/// So much farther a place may lie than its distance says.
+constexpr double kRoundedUp = 1 + 1e-9;
 
 }  // namespace kontur

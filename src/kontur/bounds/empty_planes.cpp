@@ -9,11 +9,12 @@
 
 #include "kontur/base/smooth_step.h"
 #include "kontur/bounds/plane_lattice.h"
+#include "kontur/drawing/reconcile.h"
 
 namespace kontur {
 namespace {
 
-constexpr double kTouched = 0.005, kReachedThrough = 0.02;  // of the ball's diameter
+constexpr double kReachedThrough = 0.02;  // of the ball's diameter
 
 /// How far a contour reaches through a plane, in diameters of the ball: the lesser of both sides; 1 if it lies in the plane.
 double reach_through(const Contour& contour, const Plane& plane, double diameter_mm) {
@@ -24,7 +25,7 @@ double reach_through(const Contour& contour, const Plane& plane, double diameter
         above = std::max(above, off);
         below = std::max(below, -off);
     }
-    return std::max(above, below) < kTouched ? 1 : std::min(above, below);
+    return std::max(above, below) < kMarginFraction ? 1 : std::min(above, below);
 }
 
 /// The contour that contradicts the plane most, and by how much.
@@ -91,7 +92,7 @@ private:
 
 std::vector<Bound> empty_plane_bounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions,
                                       const Plane& empty) {
-    const double belief = 1 - smooth_step(kTouched, kReachedThrough, contradiction(planes, empty).reach);
+    const double belief = 1 - smooth_step(kMarginFraction, kReachedThrough, contradiction(planes, empty).reach);
     if (belief < kLeastBelief) return {};
     return EmptyPlane(planes, regions, empty).bounds(belief);
 }

@@ -3,55 +3,79 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kontur/base/smooth_step.h"
+#include "kontur/bounds/plane_lattice.h"
 
 namespace kontur {
 namespace {
 
-constexpr double kParallelCosine = 0.9945, kSlantedCosine = 0.866;  // 6 and 30 degrees
-constexpr double kGapShare = 0.85;                                  // of a gap: the object ends anywhere in it
-constexpr double kMostGaps = 100;                                   // no more can be told from these
-constexpr double kMostHeight = 1.5;                                 // guesses
+constexpr double kGapShare = 0.85;   // of a gap: the object ends anywhere in it
+constexpr double kMostHeight = 1.5;  // guesses
+constexpr double kNoGap = 1e300;     // mm
 constexpr double kBeyondPoints = 1.25;
-constexpr double kLedOn = 0.35;     // of the height: the object surely goes on where a region lies so far ahead
-constexpr double kHitCosine = 0.9;  // planes tilted less than 26 degrees are met straight ahead
+constexpr double kLedOn = 0.35;  // of the height: the object surely goes on where a region lies so far ahead
 // ... or contours of other directions reach; a third of it, and the volume jumps by 7 % as one of two planes turns
 constexpr double kLedByOthers = 1;
 constexpr double kBeside = 0.3;                     // of their distance beside the section is taken off what these reach
 constexpr double kEdge = 2;                         // heights from its outline a dome is as high as in the middle
 constexpr double kNoise = 0.05, kGuessNoise = 0.3;  // of the height
 constexpr double kGuess = 0.2;                      // belief in a height that is but a guess
-constexpr std::size_t kRimPoints = 40;              // per outline
 constexpr double kSeen = 1.3;  // heights to the border of the image that show an end; up to 1 it may lie beyond
 
-struct PlaneBefore {
-    double distance;
-    double weight;  ///< 1 for a parallel one
-};
-
-std::vector<PlaneBefore> planes_before(const DrawnPlanes& planes, const Section& section, double sign) {
-    std::vector<PlaneBefore> before;
-    for (const Section& other : planes.sections) {
-        const double cosine = dot(section.plane.normal, other.plane.normal);
-        const double weight = smooth_step(kSlantedCosine, kParallelCosine, std::abs(cosine));
-        const double distance = weight > 0 ? sign * other.plane.distance_to(section.plane.origin) / cosine : 0;
-        if (&other != &section && distance > 0) before.push_back({distance, weight});
+/// The gaps between the planes before a section, the nearest first: those of planes that are tilted against it count less.
+class Gaps {
+public:
+    Gaps(const DrawnPlanes& planes, const Section& section, double sign) {
+        std::vector<PlaneBefore> before;
+        for (const Section& other : planes.sections) {
+            const double cosine = dot(section.plane.normal, other.plane.normal);
+            const double weight = 1 - crossing(section.plane.normal, other.plane.normal);
+            const double distance = weight > 0 ? sign * other.plane.distance_to(section.plane.origin) / cosine : 0;
+            if (&other != &section && distance > 0) before.push_back({distance, weight});
+        }
+        std::ranges::sort(before, {}, &PlaneBefore::distance_mm);
+        for (const auto& [distance_mm, weight] : before) {
+            gaps_.push_back({std::max(distance_mm - thickness_mm_, 0.0), weight});
+            thickness_mm_ += weight * gaps_.back().distance_mm;
+        }
     }
-    std::sort(before.begin(), before.end(),
-              [](const PlaneBefore& a, const PlaneBefore& b) { return a.distance < b.distance; });
-    return before;
-}
 
-/// How many gaps there are, each by its share of the widest one: those of planes drawn twice do not count.
-double count_of(const std::vector<double>& gaps) {
-    constexpr double kPower =
-        1.5;  // 1 moves the volume by 2.1 % as a third plane leaves the second one, 2 as gaps become equal
-    const double widest = gaps.empty() ? 0 : std::ranges::max(gaps);
-    double count = 0;
-    for (const double gap : gaps) count += widest > 0 ? std::pow(gap / widest, kPower) : 0;
-    return std::max(count, 1.0);
-}
+    double thickness_mm() const { return thickness_mm_; }
+
+    /// From the nearest to the farthest, each believed by what it is of itself and the one before it. Without any:
+    /// `otherwise`.
+    double mean_mm(double otherwise) const {
+        double mean = otherwise, gap_before = 0;
+        for (std::size_t k = gaps_.size(); k-- > 0;) {
+            const auto [gap, weight] = gaps_[k];
+            const double belief = gap > 0 ? weight * gap / (gap + gap_before) : 0;
+            mean = belief * gap + (1 - belief) * mean;
+            gap_before = weight * gap + (1 - weight) * gap_before;
+        }
+        return mean;
+    }
+
+    /// How many there are, each by its share of the widest one: those of planes drawn twice do not count.
+    double count() const {
+        // 1 moves the volume by 2.1 % as a third plane leaves the second one, 2 as gaps become equal.
+        constexpr double kPower = 1.5;
+        double widest = 0, count = 0;
+        for (const auto& [gap, weight] : gaps_) widest = std::max(widest, weight * gap);
+        for (const auto& [gap, weight] : gaps_) count += widest > 0 ? std::pow(weight * gap / widest, kPower) : 0;
+        return std::max(count, 1.0);
+    }
+
+private:
+    struct PlaneBefore {
+        double distance_mm;
+        double weight;  ///< 1 for a parallel one
+    };
+
+    std::vector<PlaneBefore> gaps_;
+    double thickness_mm_ = 0;
+};
 
 /// How far single points lie beyond a plane.
 double reach_of_points(const ContourSet& set, const Plane& plane, double sign) {
@@ -70,7 +94,10 @@ public:
           sign_(sign),
           up_(sign * own.section.plane.normal),
           reach_of_others_(reach_of_others()),
-          areas_(areas_without_holes(own.section)) {}
+          areas_(areas_without_holes(own.section)) {
+        const double gap = Gaps(planes, own.section, sign).mean_mm(kNoGap);
+        for (const DrawnRegion& other : regions) belongs_.push_back(&other == &own ? 0 : belongs(other, gap));
+    }
 
     /// Over one of the region's outlines. True if the end was needed there and its height is a guess.
     bool append(std::size_t outline, std::vector<Bound>& bounds) const {
@@ -100,8 +127,8 @@ public:
             add(own_.section.plane.from_uv(probe.at), height * std::sqrt(1 - rim * rim), 0);
         }
         // The outline itself must not be carried on, neither straight nor flaring.
-        for (std::size_t i = 0; i < line.size(); i += std::max<std::size_t>(1, line.size() / kRimPoints))
-            add(own_.section.plane.from_uv(line[i]), height, -height / 4);
+        const auto stride = std::max<std::size_t>(1, line.size() / static_cast<std::size_t>(kLinePlaces));
+        for (std::size_t i = 0; i < line.size(); i += stride) add(own_.section.plane.from_uv(line[i]), height, -height / 4);
         return open > 0.5;
     }
 
@@ -129,17 +156,29 @@ private:
         return most;
     }
 
+    /// How surely a region is of the same object: one that is far off beside its size, and beside the gaps between the
+    /// sections before both, is a speck. Nothing is to lean towards what one contour shows against all others.
+    double belongs(const DrawnRegion& other, double gap_mm) const {
+        const Vec3 way = other.ball.center - own_.ball.center;
+        const double back = dot(way, other.section.plane.normal) < 0 ? -1 : 1;
+        const double gap = std::min(gap_mm, Gaps(planes_, other.section, -back).mean_mm(kNoGap));
+        const double away = norm(way), radius = std::min(own_.radius_mm, other.radius_mm);
+        return 1 - smooth_step(kFar, kTooFar, away / std::max(radius, 1 / kNoGap)) *
+                       smooth_step(kUneven, kTooUneven, away / gap);
+    }
+
     /// How surely the object goes on over a place of the region: 1 where a region of another plane lies ahead.
     double led_on(const Vec3& place, double height) const {
         double most = 0;
-        const auto shown_at = [&](double ahead, double beside) {
-            most = std::max(most, smooth_step(0, kLedOn * height, ahead) * (1 - smooth_step(0.5, 1, beside / ahead)));
-        };
-        for (const DrawnRegion& other : regions_) {
-            if (most == 1) break;
-            if (&other == &own_ || dot(other.ball.center - place, up_) <= -other.ball.radius) continue;
+        for (std::size_t r = 0; r < regions_.size() && most < 1; ++r) {
+            const DrawnRegion& other = regions_[r];
+            const auto shown_at = [&](double ahead, double beside) {
+                most = std::max(
+                    most, belongs_[r] * smooth_step(0, kLedOn * height, ahead) * (1 - smooth_step(0.5, 1, beside / ahead)));
+            };
+            if (belongs_[r] == 0 || dot(other.ball.center - place, up_) <= -other.ball.radius) continue;
             const Plane& plane = other.section.plane;
-            if (const double cosine = dot(up_, plane.normal); std::abs(cosine) > kHitCosine) {
+            if (const double cosine = dot(up_, plane.normal); crossing(up_, plane.normal) < 1) {
                 const double ahead = -plane.distance_to(place) / cosine;
                 if (ahead <= 0) continue;
                 const Point2 at = plane.to_uv(place + ahead * up_);
@@ -161,31 +200,17 @@ private:
     Vec3 up_;
     double reach_of_others_;
     std::vector<double> areas_;
+    std::vector<double> belongs_;  ///< how surely each region is of the same object
 };
 
 }  // namespace
 
 EndHeight end_height(const DrawnPlanes& planes, const Section& section, double sign, double guess_mm) {
-    double thickness = 0;
-    std::vector<double> gaps, counted;
-    const std::vector<PlaneBefore> before = planes_before(planes, section, sign);
-    for (const PlaneBefore& plane : before) {
-        gaps.push_back(std::max(plane.distance - thickness, 0.0));
-        const double believed = plane.weight * gaps.back();
-        thickness += believed;
-        counted.push_back(believed);
-    }
-    double mean_gap = guess_mm, gap_before = 0;
-    for (std::size_t k = before.size(); k-- > 0;) {
-        const double gap = gaps[k], weight = before[k].weight;
-        const double belief = gap > 0 ? weight * gap / (gap + gap_before) : 0;
-        mean_gap = belief * gap + (1 - belief) * mean_gap;
-        gap_before = weight * gap + (1 - weight) * gap_before;
-    }
-    const double count = count_of(counted);
+    const Gaps gaps(planes, section, sign);
+    const double thickness = gaps.thickness_mm(), mean_gap = gaps.mean_mm(guess_mm), count = gaps.count();
     // One gap tells as much as it is wide beside the object; several that are alike tell it by being alike.
-    const double odds = std::pow(thickness / guess_mm, 2 / count) * std::exp2(std::min(count, kMostGaps) - 1);
-    const double belief = odds / (1 + odds);
+    const double odds = std::pow(thickness / guess_mm, 2 / count) * std::exp2(count - 1);
+    const double belief = 1 / (1 + 1 / odds);
     const double rest = guess_mm * guess_mm / (guess_mm + thickness / 2);
     const double between = mean_gap > 0 ? std::pow(kGapShare * mean_gap, belief) * std::pow(rest, 1 - belief) : rest;
     const double height = std::min(between, kMostHeight * guess_mm);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kontur/base/smallest_ball.h"
+#include "kontur/bounds/plane_lattice.h"
 
 namespace kontur {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 // Of 4,000 random mixes of open contours two were inside at twice the ball without them. They hold nothing in 150 drawings
 // of organs.
 constexpr int kPlaces = 200;
-constexpr double kReach = 1.9, kDepth = 0.05, kNoise = 0.02;  // radii of the ball
+constexpr double kReach = 1.9;  // radii of the ball
 
 /// The n-th of so many directions, evenly spread: each turns by the golden angle and sinks by the same share.
 Vec3 direction(int n) {
@@ -36,9 +37,7 @@ std::vector<Bound> far_bounds(const DrawnPlanes& planes) {
     const Ball3 ball = ball_with_clicks(planes);
     std::vector<Bound> bounds;
     for (int n = 0; n < kPlaces; ++n)
-        bounds.push_back({.position = ball.center + kReach * ball.radius * direction(n),
-                          .most_mm = -kDepth * ball.radius,
-                          .noise_mm = kNoise * ball.radius});
+        bounds.push_back(outside_bound(ball.center + kReach * ball.radius * direction(n), (kReach - 1) * ball.radius, 0, 1));
     return bounds;
 }
 

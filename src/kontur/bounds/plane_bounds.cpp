@@ -179,10 +179,9 @@ private:
     /// The other regions that may have places within a distance.
     std::vector<Near> nearest_first(const Vec3& place, double within_mm) const {
         std::vector<Near> near;
-        constexpr double kRounding = 1 + 1e-9;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
             const double off = std::abs(regions_[r].section.plane.distance_to(place));
-            if (&regions_[r] == &own_ || off > kRounding * within_mm) continue;
+            if (&regions_[r] == &own_ || off > kRoundedUp * within_mm) continue;
             const double apart = distance(regions_[r].ball.center, place) - regions_[r].ball.radius;
             if (apart < within_mm) near.push_back({std::max(apart, 0.0), r});
         }

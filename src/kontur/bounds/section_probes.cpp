@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/drawing/each_of_many.h"
 #include "kontur/shape/box_tree.h"
 #include "kontur/shape/enclosed_area.h"
 
@@ -81,10 +82,10 @@ SectionAxes::SectionAxes(const Section& section) {
 }
 
 std::vector<Probe> probes(const Section& section) {
-    constexpr double kProbes = 118;                              // of a section without gaps in its regions
-    constexpr double kOfSmallRegion = 12, kOfAllRegions = 1200;  // however small they are beside others
-    constexpr double kOfWall = 0.4;     // the step, of a wall's mean thickness, so that none falls between two places
-    constexpr double kMostSteps = 400;  // along a section
+    constexpr double kProbes = 118;        // of a section without gaps in its regions
+    constexpr double kOfSmallRegion = 12;  // however small it is beside others
+    constexpr double kOfWall = 0.4;        // the step, of a wall's mean thickness, so that none falls between two places
+    constexpr double kMostSteps = 400;     // along a section
     const SectionAxes axes(section);
     std::vector<Outline> outlines;
     double whole_area = 0, length = 0;
@@ -95,7 +96,7 @@ std::vector<Probe> probes(const Section& section) {
     }
     whole_area = std::max(whole_area, 0.0);       // holes may lie beside what they are cut from
     const double wall = 2 * whole_area / length;  // a thin ring's thickness, a disc's radius
-    const double least = std::clamp(kOfAllRegions / static_cast<double>(outlines.size()), 1.0, kOfSmallRegion);
+    const double least = each_of_many(outlines.size(), kOfSmallRegion);
     const SectionSearch search(section);
     std::vector<Probe> result;
     for (std::size_t o = 0; o < outlines.size(); ++o) {

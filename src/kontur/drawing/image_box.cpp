@@ -8,11 +8,6 @@
 #include "kontur/shape/contour.h"
 
 namespace kontur {
-namespace {
-
-constexpr double kHalf = 0.5;  // a voxel, from its centre to its face
-
-}  // namespace
 
 ImageBox::ImageBox(const Grid& grid)
     : size_{static_cast<double>(grid.size.i), static_cast<double>(grid.size.j), static_cast<double>(grid.size.k)},
@@ -23,7 +18,7 @@ ImageBox::ImageBox(const Grid& grid)
 bool ImageBox::contains(const Vec3& place) const {
     const Vec3 index = to_index_.apply(place);
     for (int axis = 0; axis < 3; ++axis)
-        if (!(index[axis] >= -kHalf && index[axis] <= size_[axis] - kHalf)) return false;
+        if (!(index[axis] >= -0.5 && index[axis] <= size_[axis] - 0.5)) return false;
     return true;
 }
 
@@ -31,7 +26,7 @@ bool ImageBox::contains(const ContourSet& set) const {
     const auto is_near = [&](const Vec3& place) {
         const Vec3 index = to_index_.apply(place);
         for (int axis = 0; axis < 3; ++axis)
-            if (!(index[axis] >= -2 * kHalf && index[axis] <= size_[axis])) return false;
+            if (!(index[axis] >= -1 && index[axis] <= size_[axis])) return false;
         return true;
     };
     for (const Contour& contour : set.contours)
@@ -41,7 +36,7 @@ bool ImageBox::contains(const ContourSet& set) const {
 
 Vec3 ImageBox::nearest(const Vec3& place) const {
     const Vec3 index = to_index_.apply(place);
-    const auto inner = [&](int axis) { return std::clamp(index[axis], -kHalf, size_[axis] - kHalf); };
+    const auto inner = [&](int axis) { return std::clamp(index[axis], -0.5, size_[axis] - 0.5); };
     return to_mm_.apply({inner(0), inner(1), inner(2)});
 }
 
@@ -50,7 +45,7 @@ double ImageBox::border_ahead_mm(const Vec3& place, const Vec3& direction) const
     double nearest = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         if (step[axis] == 0) continue;
-        const double voxels = step[axis] > 0 ? size_[axis] - kHalf - index[axis] : index[axis] + kHalf;
+        const double voxels = step[axis] > 0 ? size_[axis] - 0.5 - index[axis] : index[axis] + 0.5;
         nearest = std::min(nearest, std::max(voxels, 0.0) / std::abs(step[axis]));
     }
     return nearest;
@@ -62,7 +57,7 @@ bool ImageBox::is_border(const Vec3& place, const Vec3& outward) const {
     for (int axis = 0; axis < 3; ++axis) {
         const auto& row = to_index_.linear[static_cast<std::size_t>(axis)];
         const double out = dot(normalized(Vec3{row[0], row[1], row[2]}), outward);
-        const double slices = out > 0 ? size_[axis] - kHalf - index[axis] : index[axis] + kHalf;
+        const double slices = out > 0 ? size_[axis] - 0.5 - index[axis] : index[axis] + 0.5;
         if (std::abs(out) > kAlong && slices < 1) return true;
     }
     return false;

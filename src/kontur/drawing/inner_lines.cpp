@@ -30,17 +30,16 @@ namespace {
 /// The borders of one ring, each as an open line. `begin` follows the last inner point before it.
 void append_borders(const std::vector<BoundaryPoint>& ring, const std::vector<bool>& is_inner,
                     std::vector<BoundaryPoint>& to) {
-    constexpr std::int32_t kFirstLine = 100;  // others of a contour are those of its lid
     const std::size_t n = ring.size();
     const auto first = static_cast<std::size_t>(std::ranges::find(is_inner, true) - is_inner.begin());
-    std::int32_t line = kFirstLine;
+    std::int32_t line = -1;  // and on downwards: those above 0 are of its lid
     bool is_begun = false;
     for (std::size_t step = 1; step <= n; ++step) {
         const std::size_t i = (first + step) % n;
         if (is_inner[i]) {
             if (is_begun) {
                 to.back().inplane_normal = {};
-                ++line;
+                --line;
             }
             is_begun = false;
             continue;

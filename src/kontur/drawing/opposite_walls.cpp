@@ -63,12 +63,11 @@ AllLines lines_of(std::span<const PreparedLine> prepared_lines, Contour Prepared
 
 /// Where the ray from `start` in the unit direction `along` meets the edge; infinity where it does not.
 double hit(const Point2& start, const Point2& along, const Point2& a, const Point2& b) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
     const Point2 edge = minus(b, a), to_a = minus(a, start);
     const double turn = cross2(along, edge);
-    if (turn == 0) return kNone;
+    if (turn == 0) return std::numeric_limits<double>::infinity();
     const double distance = cross2(to_a, edge) / turn, at = cross2(to_a, along) / turn;
-    return distance >= 0 && at >= 0 && at <= 1 ? distance : kNone;
+    return distance >= 0 && at >= 0 && at <= 1 ? distance : std::numeric_limits<double>::infinity();
 }
 
 /// From the point in the unit direction to the next line; infinity beyond the reach.

@@ -11,13 +11,6 @@
 #include "kontur/base/point_tree.h"
 
 namespace kontur {
-namespace {
-
-// Of a bound's noise, what f may leave it by. Three times as much lets the volume jump by 4 % where one of two planes turns,
-// a third of it changes nothing but that some drawings take one more solve of all points.
-constexpr double kCounts = 0.03;
-
-}  // namespace
 
 ActiveBounds::ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& points)
     : bounds_(bounds), points_(points), activity_(bounds.size(), Activity::no) {

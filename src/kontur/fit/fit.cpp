@@ -81,7 +81,7 @@ constexpr double kSettlingTolerance = 3;
 // Of the noise of a bound that is held though f would keep it, and pulls it the wrong way. While bounds are settled it is
 // let go of: which ones are held else depends on the way there, and the volume jumps where that is another. All points are
 // not worth another solve for it: what is left lies far from the surface, which moves by a hundredth of a millimetre.
-constexpr double kCountsSettling = 0.03, kCountsHeld = 0.5;
+constexpr double kCountsHeld = 0.5;
 
 // Of the points, how many may tell the lines for a fit by them to be tried. An unsteady hand's are nine tenths, those of
 // smooth lines a third at most.
@@ -146,7 +146,7 @@ private:
     void settle_bounds(std::size_t part_size) {
         if (!bounds_.holds_any() || options_.most_solves == 1) return;
         const TellingPoints part = equally(thin(all_, std::clamp(part_size / 2, std::size_t{1}, options_.tilt_points)));
-        for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance, kCountsSettling);) ++solve;
+        for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance, kCounts);) ++solve;
     }
 
     /// The fit by the points that tell the lines; false where they are too many to be worth a try, or do not tell them.

@@ -18,6 +18,7 @@
 #include "kontur/bounds/ends.h"
 #include "kontur/bounds/far_bounds.h"
 #include "kontur/drawing/drawn_planes.h"
+#include "kontur/drawing/each_of_many.h"
 #include "kontur/drawing/extents.h"
 #include "kontur/drawing/inner_lines.h"
 #include "kontur/drawing/opposite_walls.h"
@@ -222,10 +223,8 @@ void find_extents(const Extents& extents, const Work& work, Places& places) {
 
 /// Of one contour among so many: each of them gets fewer where they are very many, so that they share what can be solved.
 int least_segments(const PrepareOptions& options, std::size_t contours) {
-    constexpr std::size_t kAllContours = 4800;
-    constexpr int kLeast = 12;
-    const auto share = std::max(kLeast, static_cast<int>(kAllContours / std::max<std::size_t>(contours, 1)));
-    return static_cast<int>(std::ceil(options.quality * std::min(options.least_segments, share)));
+    const double share = std::floor(each_of_many(contours, kLeastSegments));
+    return static_cast<int>(std::ceil(options.quality * std::min<double>(options.least_segments, share)));
 }
 
 Contour subdivided(const Contour& contour, int least_segments, const DrawnCorners& corners, const PrepareOptions& options) {

@@ -203,7 +203,7 @@ TEST(DrawnOddly, TwoPlanesAtTheSamePlaceAreOneEnd) {
 // Neighbouring slices of a scanner may be 2 % of the object's width apart. Two or three of them hardly tell how far it goes
 // on, and a warning says so; with each slice more their distance is believed more.
 TEST(DrawnOddly, NeighbouringSlicesEndTheSoonerTheMoreTheyAre) {
-    double last_height = 1.1 * kRadius;
+    double last_height = kRadius;
     for (const std::vector<double>& heights : {std::vector<double>{-1, 1},
                                                {-2, 0, 2},
                                                {-4, -2, 0, 2, 4},

@@ -14,16 +14,13 @@ namespace {
 // Power of the thickness over the radius in the odds that all of an object was drawn, by one gap. Half of it costs three
 // slices in the middle of an organ .045 of Dice, twice makes five low discs a half too thick.
 constexpr double kOdds = 4;
-constexpr double kGapShare = 0.85;  // of a gap: the object ends anywhere in it
-// Radii, beyond one section in the middle: over it, organs go on for .86 in the mean (median of 24), a dome of 1.3 does. At
-// 1.3 two slices of organs gain another .012 of Dice, but the volume jumps by 3.7 % as a third plane leaves the second one.
-constexpr double kGuessHeight = 1.1;
+constexpr double kGapShare = 0.85;   // of a gap: the object ends anywhere in it
 constexpr double kMostHeight = 1.5;  // guesses
 constexpr double kNoGap = 1e300;     // mm
 constexpr double kBeyondPoints = 1.25;
 constexpr double kLedOn = 0.35;  // of the height: the object surely goes on where a region lies so far ahead
 // ... or contours of other directions reach; a third of it, and the volume jumps by 7 % as one of two planes turns
-constexpr double kLedByOthers = 0.9;
+constexpr double kLedByOthers = 1;
 constexpr double kBeside = 0.3;                     // of their distance beside the section is taken off what these reach
 constexpr double kEdge = 2;                         // heights from its outline a dome is as high as in the middle
 constexpr double kNoise = 0.05, kGuessNoise = 0.3;  // of the height
@@ -218,7 +215,7 @@ EndHeight end_height(const DrawnPlanes& planes, const Section& section, double s
     // them.
     const double odds = std::pow(thickness / guess_mm, kOdds / count) * std::exp2(count * (count - 1) / 2);
     const double belief = 1 / (1 + 1 / odds);
-    const double rest = kGuessHeight * guess_mm * guess_mm / (guess_mm + thickness);
+    const double rest = guess_mm * guess_mm / (guess_mm + thickness / 2);
     const double between = mean_gap > 0 ? std::pow(kGapShare * mean_gap, belief) * std::pow(rest, 1 - belief) : rest;
     const double height = std::min(between, kMostHeight * guess_mm);
     return {std::max(height, kBeyondPoints * reach_of_points(planes.set, section.plane, sign)), belief};

@@ -16,9 +16,9 @@ struct EndHeight {
 /// Between two answers, a geometric mean, since one may be many times the other. If planes were drawn one after another
 /// across the whole object, the next one would have shown it, had it gone on so far: 0.85 of the mean of the gaps between
 /// the parallel planes before it, from the nearest to the farthest, each believed by g / (g + g'), g' the gap before it. If
-/// they show but a part of it, it is about as thick as wide: a dome over one section is 1.1 of `guess_mm` high, the radius
-/// of the circle with the outline's area without its holes, and the less the thickness t across which planes were drawn,
-/// 1.1 guess^2 / (guess + t). The odds that they were drawn across all of it are (t / guess)^(4 / n) 2^(n (n - 1) / 2) with
+/// they show but a part of it, it is about as thick as wide: a radius of `guess_mm`, that of the circle with the outline's
+/// area without its holes, of which half the thickness t across which planes were drawn is there, guess^2 / (guess + t/2).
+/// The odds that they were drawn across all of it are (t / guess)^(4 / n) 2^(n (n - 1) / 2) with
 /// n gaps, of which sum (g / widest g)^1.5 are counted: each pair of gaps that are alike doubles them. Planes tilted by up
 /// to 30 degrees count less and less. No higher than 1.5 guesses, and a quarter higher than single points of the surface and
 /// of the inside. Continuous in the planes' places.

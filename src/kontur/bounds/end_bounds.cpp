@@ -12,7 +12,7 @@ namespace kontur {
 namespace {
 
 // Power of the thickness over the radius in the odds that all of an object was drawn, by one gap. Half of it costs three
-// slices in the middle of an organ .045 of Dice, twice makes five low discs a half too thick.
+// slices in the middle of organs .038 of Dice; twice gains .018, and four low discs are 4 times too thick instead of 2.2.
 constexpr double kOdds = 4;
 constexpr double kGapShare = 0.85;   // of a gap: the object ends anywhere in it
 constexpr double kMostHeight = 1.5;  // guesses
@@ -215,7 +215,9 @@ EndHeight end_height(const DrawnPlanes& planes, const Section& section, double s
     // them.
     const double odds = std::pow(thickness / guess_mm, kOdds / count) * std::exp2(count * (count - 1) / 2);
     const double belief = 1 / (1 + 1 / odds);
-    const double rest = guess_mm * guess_mm / (guess_mm + thickness / 2);
+    // Half of the thickness: the volume jumps by 2.1 % as a third plane leaves the second one; all of it: two slices of
+    // organs gain nothing.
+    const double rest = guess_mm * guess_mm / (guess_mm + 0.75 * thickness);
     const double between = mean_gap > 0 ? std::pow(kGapShare * mean_gap, belief) * std::pow(rest, 1 - belief) : rest;
     const double height = std::min(between, kMostHeight * guess_mm);
     return {std::max(height, kBeyondPoints * reach_of_points(planes.set, section.plane, sign)), belief};

@@ -17,7 +17,7 @@ struct EndHeight {
 /// across the whole object, the next one would have shown it, had it gone on so far: 0.85 of the mean of the gaps between
 /// the parallel planes before it, from the nearest to the farthest, each believed by g / (g + g'), g' the gap before it. If
 /// they show but a part of it, it is about as thick as wide: a radius of `guess_mm`, that of the circle with the outline's
-/// area without its holes, of which half the thickness t across which planes were drawn is there, guess^2 / (guess + t/2).
+/// area without its holes, less for the thickness t across which planes were drawn, guess^2 / (guess + 3/4 t).
 /// The odds that they were drawn across all of it are (t / guess)^(4 / n) 2^(n (n - 1) / 2) with
 /// n gaps, of which sum (g / widest g)^1.5 are counted: each pair of gaps that are alike doubles them. Planes tilted by up
 /// to 30 degrees count less and less. No higher than 1.5 guesses, and a quarter higher than single points of the surface and

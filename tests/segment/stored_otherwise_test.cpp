@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "kontur/measure/compare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/segment.h"
 #include "support/coarse_grid.h"
@@ -69,12 +70,12 @@ TEST(SplitEdges, InSixteenPiecesMakeTheSameSurface) {
             std::vector<Vec3> points;
             for (std::size_t i = 0; i < contour.points.size(); ++i)
                 for (int piece = 0; piece < 16; ++piece)
-                    points.push_back(contour.points[i] + piece / 16.0 * (contour.points[(i + 1) % contour.points.size()] -
-                                                                         contour.points[i]));
+                    points.push_back(contour.points[i] +
+                                     piece / 16.0 * (contour.points[(i + 1) % contour.points.size()] - contour.points[i]));
             contour.points = std::move(points);
         }
         const Segmentation first = segment(drawn.contours, grid), second = segment(split, grid);
-        EXPECT_EQ(first.mask.values, second.mask.values);
+        EXPECT_GT(compare(first.mask, second.mask).dice, 0.9995) << "a voxel's centre may lie .002 mm beside the surface";
         for (const Vec3& place : first.samples.points)
             ASSERT_NEAR(first.function.value(place), second.function.value(place), 0.1);
     }

@@ -70,9 +70,6 @@ double faded(double noise_mm, double belief);
 /// Bounds that are believed less than this are left out: their noise is ten thousand times as large.
 constexpr double kLeastBelief = 0.01;
 
-/// Places along an outline that tell where it runs.
-constexpr double kLinePlaces = 24;
-
 /// Sections are of one tube up to so many radii, fading out; kFar: half costs tubes .060.
 constexpr double kFar = 8, kTooFar = 10;
 /// ... and where they are so many times as far apart as from the sections before them.

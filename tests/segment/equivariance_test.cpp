@@ -110,7 +110,7 @@ TEST_P(Equivariance, MasksTurnWithTheContours) {
     for (const Vec3& axis : {Vec3{0.3, -0.5, 0.8}, Vec3{-1, 1, 0.2}}) {
         const Segmentation result = moved_and_segmented(drawing, rotation(axis), {70, -200, 900}, 1);
         EXPECT_LE(different_voxels(original.mask, result.mask),
-                  static_cast<std::size_t>(original.report.mask_voxels / 2000));
+                  static_cast<std::size_t>(original.report.mask_voxels / 1000));
         EXPECT_NEAR(result.report.residual.max_mm, original.report.residual.max_mm,
                     0.02 * original.report.residual.max_mm + 1e-3);
     }

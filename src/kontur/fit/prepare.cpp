@@ -223,8 +223,7 @@ void find_extents(const Extents& extents, const Work& work, Places& places) {
 
 /// Of one contour among so many: each of them gets fewer where they are very many, so that they share what can be solved.
 int least_segments(const PrepareOptions& options, std::size_t contours) {
-    const double share = std::floor(each_of_many(contours, kLeastSegments));
-    return static_cast<int>(std::ceil(options.quality * std::min<double>(options.least_segments, share)));
+    return static_cast<int>(std::ceil(options.quality * std::floor(each_of_many(contours, options.least_segments))));
 }
 
 Contour subdivided(const Contour& contour, int least_segments, const DrawnCorners& corners, const PrepareOptions& options) {

@@ -23,7 +23,7 @@ inline constexpr double kMergeFraction = 6e-4;
 struct PrepareOptions {
     double quality = 1.0;  ///< fraction of each contour's points to keep (reduce), in (0, 1]
     /// Contours of fewer segments, times quality, are subdivided (subdivide); of more than 100 contours each gets less, at
-    /// least 12; 0: the paper's rule.
+    /// least a quarter; 0: the paper's rule.
     int least_segments = kLeastSegments;
     bool bounds = true;        ///< keep f on the drawn planes' sides, and end the object beyond the last of them
     double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)

@@ -10,10 +10,11 @@
 
 #include "dicom_output.h"
 #include "kontur/base/error.h"
-#include "kontur/base/printable.h"
+#include "kontur/derive/derived_attributes.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/dicom/derived_segment.h"
 #include "kontur/labels/section_contours.h"
 #include "roi_label_map.h"
 #include "structures.h"
@@ -38,13 +39,6 @@ NamedType named_type(const std::string& words) {
     if (at == std::string::npos || at == 0 || std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end())
         refuse(fmt::format("--type is '{}'; it is NAME=TYPE with one of {}", words, fmt::join(kTypes, ", ")));
     return {words.substr(0, at), type};
-}
-
-std::string type_by_name(const std::string& name) {
-    const std::string small = lower_case(name);
-    for (const auto& [start, type] : {std::pair{"gtv", "GTV"}, std::pair{"ctv", "CTV"}, std::pair{"ptv", "PTV"}})
-        if (small.starts_with(start)) return type;
-    return small == "body" || small == "external" ? "EXTERNAL" : "";
 }
 
 bool is_empty(const Mask& mask) { return std::find(mask.values.begin(), mask.values.end(), 1) == mask.values.end(); }
@@ -100,19 +94,9 @@ std::string farthest_cells(double mm, const Vec3& place) {
 
 }  // namespace
 
-StructureAttributes derived_attributes(const DerivedStructure& derived) {
-    StructureAttributes attributes;
-    attributes.interpreted_type = type_by_name(derived.name);
-    attributes.generation_algorithm = "AUTOMATIC";
-    attributes.description = "derived: " + derived.rule;
-    return attributes;
-}
-
 DicomSegment derived_segment(const std::string& name, const StructureAttributes& attributes) {
-    DicomSegment segment = fitted_segment(attributes);
+    DicomSegment segment = kontur::derived_segment(attributes);
     segment.label = name;
-    segment.algorithm_type = "AUTOMATIC";
-    segment.algorithm_name = "kontur derive";
     return segment;
 }
 

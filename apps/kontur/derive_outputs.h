@@ -23,8 +23,7 @@ struct DeriveOutput {
 std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const DeriveSources& sources,
                                          std::vector<DerivedStructure> made, const Work& work);
 
-/// What is said of a derived structure beside its voxels; without a colour.
-StructureAttributes derived_attributes(const DerivedStructure& derived);
+/// What is said of a derived structure beside its voxels.
 DicomSegment derived_segment(const std::string& name, const StructureAttributes& attributes);
 
 /// Throws Error for what `--type` cannot mean.

@@ -7,6 +7,7 @@
 #include "derive_outputs.h"
 #include "kontur/base/error.h"
 #include "kontur/derive/derive.h"
+#include "kontur/derive/derived_attributes.h"
 #include "rules_file.h"
 #include "structures.h"
 

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/files/export_fits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
+
+#include "kontur/base/error.h"
+#include "viewer/files/derived_fits.h"
 
 namespace kontur::viewer {
 namespace {
@@ -15,6 +20,11 @@ bool is_same(const State& a, const State& b) {
            a.cycle_frames == b.cycle_frames && std::ranges::equal(a.contours, b.contours, [](const auto& x, const auto& y) {
                return x.first == y.first && (x.second == y.second || *x.second == *y.second);
            });
+}
+
+State without_rules(State state) {
+    std::erase_if(state.structures, [](const auto& item) { return item.second.rule.has_value(); });
+    return state;
 }
 
 std::set<Id> drawn_in(const State& state) {
@@ -31,6 +41,18 @@ State only(const State& state, Id structure) {
     own.borders = {};
     std::erase_if(own.structures, [&](const auto& item) { return item.first != structure; });
     std::erase_if(own.contours, [&](const auto& item) { return item.second->structure != structure; });
+    return own;
+}
+
+/// Only these.
+State only(const State& state, const std::map<std::string, Id>& structures) {
+    State own = state;
+    own.borders = {};
+    const auto is_one = [&](Id id) {
+        return std::ranges::any_of(structures, [&](const auto& item) { return item.second == id; });
+    };
+    std::erase_if(own.structures, [&](const auto& item) { return !is_one(item.first); });
+    std::erase_if(own.contours, [&](const auto& item) { return !is_one(item.second->structure); });
     return own;
 }
 
@@ -65,7 +87,7 @@ ExportFits::Fits ExportFits::all(const State& state, const Work& work, std::opti
     const State own = at_opened_time_alone(state);
     if (own.contours.size() == state.contours.size()) return at_opened_time(state, work);
     std::vector<FittedStructure> all;
-    if (!drawn_in(own).empty()) all = *at_opened_time(own, work);
+    if (!drawn_in(own).empty() || !all_members(own).made.empty()) all = *at_opened_time(own, work);
     for (const Id id : drawn_in(state))
         if (!is_of_opened_time(state, id)) all.push_back(in_time(state, id, time.value_or(state.opened_time), work));
     std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
@@ -94,9 +116,33 @@ std::shared_ptr<const FittedMotion> ExportFits::motion(const State& state, Id st
 }
 
 ExportFits::Fits ExportFits::at_opened_time(const State& state, const Work& work) {
+    const RuleMembers derived = all_members(state);
+    if (derived.made.empty()) return drawn_at_opened_time(without_rules(state), work);
+    return kept(state, [&] {
+        std::vector<FittedStructure> all;
+        if (!drawn_in(state).empty()) all = *drawn_at_opened_time(without_rules(state), work);
+        for (FittedStructure& one : fit_derived(derived, all, state, *image_, work)) all.push_back(std::move(one));
+        std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
+        return all;
+    });
+}
+
+ExportFits::Fits ExportFits::drawn_at_opened_time(const State& state, const Work& work) {
     const std::set<Id> drawn = drawn_in(state);
     const State asked = drawn.size() == 1 ? only(state, *drawn.begin()) : state;
     return kept(asked, [&] { return fit_structures(asked, *image_, true, work); });
+}
+
+std::shared_ptr<const FittedStructure> ExportFits::derived(const State& state, Id structure, const Work& work) {
+    const RuleMembers members = members_of(state, structure);
+    for (const auto& [name, id] : members.drawn)
+        if (!has_content(state, id))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("{}: {} has 0 contours; at least 1 is needed", members.rules.front(), name));
+    State own = state.borders.shared ? state : only(state, members.drawn);
+    for (const Id id : members.made) own.structures[id] = structure_of(state, id);
+    const Fits fits = at_opened_time(own, work);
+    return {fits, &*std::ranges::find(*fits, structure, [](const FittedStructure& one) { return one.structure.id; })};
 }
 
 std::shared_ptr<const FittedStructure> ExportFits::one(const State& all_of_it, Id structure, const Work& work,
@@ -104,11 +150,12 @@ std::shared_ptr<const FittedStructure> ExportFits::one(const State& all_of_it, I
     if (!is_of_opened_time(all_of_it, structure))
         return std::make_shared<const FittedStructure>(
             in_time(all_of_it, structure, time.value_or(all_of_it.opened_time), work));
-    const State state = at_opened_time_alone(all_of_it);
+    if (structure_of(all_of_it, structure).rule) return derived(at_opened_time_alone(all_of_it), structure, work);
+    const State state = at_opened_time_alone(without_rules(all_of_it));
     const std::set<Id> drawn = drawn_in(state);
     const bool is_alone = drawn.size() == 1 || !drawn.contains(structure);
     if (state.borders.shared && !is_alone) {
-        const Fits fits = at_opened_time(state, work);
+        const Fits fits = drawn_at_opened_time(state, work);
         const auto chosen = std::ranges::find(*fits, structure, [](const FittedStructure& one) { return one.structure.id; });
         return {fits, &*chosen};
     }

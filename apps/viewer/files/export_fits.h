@@ -41,6 +41,8 @@ private:
         Fits fits;
     };
     Fits at_opened_time(const State& state, const Work& work);
+    Fits drawn_at_opened_time(const State& state, const Work& work);
+    std::shared_ptr<const FittedStructure> derived(const State& state, Id structure, const Work& work);
     FittedStructure in_time(const State& state, Id structure, int time, const Work& work);
     Fits kept(const State& state, const std::function<std::vector<FittedStructure>()>& fit);
 

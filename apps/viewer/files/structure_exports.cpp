@@ -12,6 +12,7 @@
 #include "kontur/extract/slice_contours.h"
 #include "kontur/image/intensities.h"
 #include "kontur/io/bytes/atomic_file.h"
+#include "kontur/io/dicom/derived_segment.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
@@ -139,7 +140,7 @@ std::vector<std::string> write_seg(const fs::path& path, const All& all, const D
     std::vector<DicomSegment> segments;
     for (const FittedStructure& one : all) {
         masks.push_back(one.made.mask);
-        segments.push_back(fitted_segment(one.set.attributes));
+        segments.push_back((one.is_derived ? derived_segment : fitted_segment)(one.set.attributes));
         segments.back().number = static_cast<std::int64_t>(segments.size());
         segments.back().label = one.structure.name;
         if (one.corrected) name_source(segments.back(), one);
@@ -152,9 +153,16 @@ std::vector<std::string> write_seg(const fs::path& path, const All& all, const D
 
 std::vector<std::string> write_regions(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
     StructureSet set{"kontur", {}};
+    std::vector<std::string> notes;
     for (const FittedStructure& one : all) {
         Roi roi;
         roi.name = one.structure.name;
+        if (one.is_derived) {
+            roi.contours = one.set;
+            if (roi.contours.contours.empty()) notes.push_back(fmt::format("'{}' has no contours and is no ROI", roi.name));
+            else set.rois.push_back(std::move(roi));
+            continue;
+        }
         roi.contours = one.shares_border || one.corrected ? slice_outlines(one.made.mask)
                                                           : slice_contours(one.made.mask, one.made.function, work);
         roi.contours.name = one.structure.name;
@@ -163,7 +171,8 @@ std::vector<std::string> write_regions(const fs::path& path, const All& all, con
     }
     WriteRtstructOptions options;
     options.provenance = together(all, places_of(all));
-    return write_rtstruct(path, set, images, options);
+    for (std::string& note : write_rtstruct(path, set, images, options)) notes.push_back(std::move(note));
+    return notes;
 }
 
 /// "meshes.stl.zip": one .stl for each structure, by its name; those of one name get a number.
@@ -340,6 +349,8 @@ FittedStructure fit_structure(const State& state, Id structure, const Image& ima
 }
 
 Provenance provenance_of(const FittedStructure& one) {
+    if (one.is_derived)
+        return {{"rule", *one.structure.rule}, {"outlines_sha256", contours_sha256(one.set)}, {"version", KONTUR_VERSION}};
     if (!one.corrected) return provenance(one.set, one.made.mask.grid, one.made.report);
     const StructureMask& mask = *one.structure.mask;
     return {{"mask_sha256", mask.hash},

@@ -78,7 +78,7 @@ std::shared_ptr<const StoredMask> mask_of(const State& state, const Structure& s
 
 bool has_content(const State& state, Id structure) {
     const auto own = state.structures.find(structure);
-    return (own != state.structures.end() && own->second.mask) ||
+    return (own != state.structures.end() && (own->second.mask || own->second.rule)) ||
            std::ranges::any_of(state.contours, [&](const auto& item) { return item.second->structure == structure; });
 }
 

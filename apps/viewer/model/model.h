@@ -94,6 +94,7 @@ struct Structure {
     StructureAttributes attributes{};            ///< what its file said of it, for exports; without the colour, see above
     std::optional<std::int64_t> label_value{};   ///< in label maps; unset: one that no other structure has
     std::optional<StructureMask> mask{};         ///< that the contours correct; unset: they are all there is of it
+    std::optional<std::string> rule{};           ///< that makes it of others, as "PTV = CTV + 5 mm"; it has nothing else then
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };
@@ -120,7 +121,7 @@ ContourSet without_contours(const Structure& structure);
 /// the state does not hold.
 std::shared_ptr<const StoredMask> mask_of(const State& state, const Structure& structure);
 
-/// Whether there is anything of it: contours, or a mask.
+/// Whether there is anything of it: contours, a mask, or a rule that makes it.
 bool has_content(const State& state, Id structure);
 
 /// Whether a contour is one of what its structure is made of: a hidden correction of a mask is not.

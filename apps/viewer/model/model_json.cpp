@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
+#include "kontur/derive/rule_names.h"
 #include "kontur/io/bytes/check_json.h"
 #include "kontur/io/contours/attributes_json.h"
 
@@ -120,6 +121,7 @@ json to_json(const Structure& s) {
     if (s.smoothing) told["smoothing"] = *s.smoothing;
     if (s.label_value) told["label_value"] = *s.label_value;
     if (s.mask) told["mask"] = to_json(*s.mask);
+    if (s.rule) told["rule"] = *s.rule;
     if (s.attributes != StructureAttributes{}) told["attributes"] = json::parse(to_json(s.attributes));
     for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
     for (const SurfacePoint& point : s.surface_points) told["surface_points"].push_back(to_json(point));
@@ -325,6 +327,9 @@ Structure structure_from_json(const json& value) {
     if (m.has("interior")) structure.interior = m.points("interior");
     if (m.has("exterior")) structure.exterior = m.points("exterior");
     if (m.has("mask")) structure.mask = mask_from_json(m.at("mask"));
+    if (m.has("rule")) structure.rule = m.text("rule", kMostRuleBytes);
+    if (structure.rule && name_made(*structure.rule) != structure.name)
+        refuse(fmt::format("the rule {} does not make {}", *structure.rule, structure.name));
     if (m.has("attributes")) structure.attributes = attributes_from_json(m.at("attributes").dump());
     return structure;
 }

@@ -92,6 +92,8 @@ void write_picture(const fs::path& path, const FittedStructure& one, const Image
         options.facts = {{"Volume (mask)", in_ml(one.corrected->report.volume_ml)},
                          {"Volume before", in_ml(one.corrected->report.volume_before_ml)},
                          {"Planes corrected", fmt::format("{}", one.corrected->report.planes.size())}};
+    else if (one.is_derived)
+        options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)}, {"Rule", *one.structure.rule}};
     else
         options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)},
                          {"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
@@ -219,12 +221,12 @@ ContourSet contours_in_time(const State& now, Id structure) {
 void write_one(SessionState& s, const State& now, const ExportChoice& choice, const fs::path& path, const Work& work) {
     const std::string& name = choice.name;
     const Structure& chosen = structure_of(now, *choice.structure);
-    const ContourSet set = contours_in_time(now, chosen.id);
+    const auto made = [&] { return s.fits.one(now, chosen.id, work, choice.time); };
+    const ContourSet set = chosen.rule ? made()->set : contours_in_time(now, chosen.id);
     const ImageReference image = [&] {
         const std::scoped_lock lock(s.mutex);
         return s.project.image();
     }();
-    const auto made = [&] { return s.fits.one(now, chosen.id, work, choice.time); };
     if (name == kMasksOfAll || name == kVolumes) return write_motion(s, now, choice, path, work);
     if (is_one_of(name, kMasks)) return write_mask_file(path, *made());
     if (is_one_of(name, kMeshes)) return write_mesh_file(path, *made());

@@ -190,6 +190,10 @@ json surface_event(const SessionState& s, const Surface& surface) {
         event["volume_ml"] = surface.volume_ml;
         return event;
     }
+    if (surface.is_derived) {
+        event["volume_ml"] = volume_within_mm3(*surface.mesh, s.image.voxels->grid) / 1000;
+        return event;
+    }
     if (surface.image.verdict != ImageVerdict::none)
         event["image"] = {{"verdict", std::string(name(surface.image.verdict))}, {"text", sentence(surface.image)}};
     const double within_ml = volume_within_mm3(*surface.mesh, s.image.voxels->grid) / 1000;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/history.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "kontur/base/error.h"
 #include "viewer/model/model_json.h"
+#include "viewer/model/structure_rules.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/events.h"
 #include "viewer/session/moving_task.h"
@@ -31,12 +35,35 @@ json changes_json(const std::vector<Change<Row>>& changes) {
 /// Whether both ask the same of the surface.
 bool same_surface(const Structure& a, const Structure& b) {
     return a.empty_planes == b.empty_planes && a.smoothing == b.smoothing && a.surface_points == b.surface_points &&
-           a.interior == b.interior && a.exterior == b.exterior && a.mask == b.mask;
+           a.interior == b.interior && a.exterior == b.exterior && a.mask == b.mask && a.rule == b.rule;
 }
 
 bool same_surface(const DrawnContour& a, const DrawnContour& b) {
     return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure &&
            a.closed == b.closed && a.inside == b.inside && a.end == b.end && a.weight == b.weight && a.time == b.time;
+}
+
+/// What rules make of structures that came, went, or are made or named otherwise now.
+void add_users(const State& state, const Commit& step, std::set<Id>& touched) {
+    for (const auto& change : step.structures) {
+        if (change.before && change.after && change.before->name == change.after->name &&
+            change.before->rule == change.after->rule)
+            continue;
+        for (const Id user : users_of(state, change.id)) touched.insert(user);
+    }
+}
+
+/// Rules make a structure wholly, or it is drawn.
+void check_is_drawn(const State& state, const Commit& step) {
+    for (const auto& change : step.contours)
+        for (const auto& side : {change.before, change.after})
+            if (side) check_is_drawn(state, side->structure);
+    for (const auto& change : step.structures) {
+        if (!change.before || !change.after || !change.before->rule || !change.after->rule) continue;
+        Structure same = *change.after;
+        same.rule = change.before->rule;
+        if (!same_surface(*change.before, same)) check_is_drawn(state, change.id);
+    }
 }
 
 std::set<Id> touched_surfaces(const SessionState& s, const Commit& step) {
@@ -59,6 +86,7 @@ std::set<Id> touched_surfaces(const SessionState& s, const Commit& step) {
         const auto own = structures.find(change.after->structure);
         if (own != structures.end() && own->second.mask) touched.insert(own->first);
     }
+    add_users(s.project.state(), step, touched);
     return touched;
 }
 
@@ -75,6 +103,16 @@ void announce(SessionState& s, const Commit& step) {
     s.surfaces.outdate(touched);
     tell_changes(s, step);
     follow_touched(s, step, touched);
+}
+
+RuleTask rule_task(const SessionState& s, Id structure) {
+    RuleTask task{{{structure}, {}}, s.image.voxels};
+    try {
+        task.members = members_of(s.project.state(), structure);
+    } catch (const Error& error) {
+        task.problem = error.what();
+    }
+    return task;
 }
 
 json step_reply(SessionState& s, const std::optional<Commit>& step) {
@@ -105,6 +143,7 @@ Calls history_calls() { return {{"draft.drop", {drop_draft}}, {"undo", {undo}}, 
 void follow(SessionState& s, Id structure) { s.surfaces.follow(surface_task(s, structure)); }
 
 void commit(SessionState& s, const Commit& step) {
+    check_is_drawn(s.project.state(), step);
     std::set<Id> touched = touched_surfaces(s, step);
     touched.merge(drafted(s));
     s.draft.reset();
@@ -120,6 +159,7 @@ void commit(SessionState& s, const Commit& step) {
 }
 
 void commit_ahead(SessionState& s, const Commit& step) {
+    check_is_drawn(s.project.state(), step);
     const DrawnContour& contour = *step.contours.front().after;
     const bool stays = !step.contours.front().before || step.contours.front().before->structure == contour.structure;
     const bool is_other_draft =
@@ -153,6 +193,14 @@ void tell_changes(SessionState& s, const Commit& step) {
     s.surfaces.share_borders(s.project.state().borders);
 }
 
+void check_is_drawn(const State& state, Id structure) {
+    const Structure& made = structure_of(state, structure);
+    if (made.rule)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} is made by the rule {}; change the rule, or freeze {} to draw in it", made.name, *made.rule,
+                                made.name));
+}
+
 SurfaceTask surface_task(SessionState& s, Id structure) {
     SurfaceTask task;
     task.structure = structure;
@@ -161,6 +209,10 @@ SurfaceTask surface_task(SessionState& s, Id structure) {
     const auto own = state.structures.find(structure);
     if (own != state.structures.end()) {
         task.set = without_contours(own->second);
+        if (own->second.rule) {
+            task.rule = rule_task(s, structure);
+            return task;
+        }
         task.smoothing = own->second.smoothing;
         task.mask = mask_of(state, own->second);
         if (task.mask) task.how = *own->second.mask;

@@ -19,6 +19,12 @@ void commit_ahead(SessionState& s, const Commit& step);
 /// Tells pages of a step that the project holds.
 void tell_changes(SessionState& s, const Commit& step);
 
+/// For a new structure: one that few others have.
+std::string next_color(const State& state);
+
+/// Throws Error(invalid_input) for a structure that a rule makes: it cannot be drawn in.
+void check_is_drawn(const State& state, Id structure);
+
 /// The contours that the structure's surface is made of, the draft in its contour's place.
 SurfaceTask surface_task(SessionState& s, Id structure);
 /// The structure's surface is computed anew.

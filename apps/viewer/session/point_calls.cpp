@@ -76,6 +76,7 @@ std::string_view where(PointKind kind) {
 }
 
 json put_points(SessionState& s, const std::string& label, const Structure& after) {
+    check_is_drawn(s.project.state(), after.id);
     ContourSet set = contour_set(s.project.state(), after.id);
     if (set.contours.empty() && !after.mask) refuse(after.name + " has no contour yet, and a point alone makes no surface");
     ContourSet wanted = without_contours(after);

@@ -24,7 +24,7 @@ const Calls& all_calls() {
     static const Calls table = [] {
         Calls all;
         for (const auto calls : {border_calls, contour_calls, history_calls, motion_calls, page_calls, point_calls,
-                                 proposal_calls, second_image_calls, structure_calls, use_image_calls})
+                                 proposal_calls, rule_calls, second_image_calls, structure_calls, use_image_calls})
             all.merge(calls());
         return all;
     }();

@@ -28,7 +28,7 @@ json row_json(const FittedStructure& one, const Image& image) {
     json row = values_json(value_statistics(one.made.mask, image));
     row.update({{"structure", one.structure.id},
                 {"name", one.structure.name},
-                {"contours", one.set.contours.size()},
+                {"contours", one.is_derived ? 0 : one.set.contours.size()},
                 {"volume_ml", found.volume_ml},
                 {"surface_cm2", found.surface_cm2},
                 {"diameter_mm", found.diameter_mm},

@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "kontur/base/error.h"
+#include "kontur/derive/rule_names.h"
 #include "viewer/model/file_names.h"
 #include "viewer/model/label_values.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/names.h"
 #include "viewer/model/single_points.h"
+#include "viewer/model/structure_rules.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/history.h"
 #include "viewer/session/replies.h"
@@ -52,13 +54,6 @@ std::string free_name(const State& state) {
     }
 }
 
-std::string next_color(const State& state) {
-    std::array<int, kColors.size()> uses{};
-    for (const auto& [id, structure] : state.structures)
-        for (std::size_t i = 0; i < kColors.size(); ++i) uses[i] += structure.color == kColors[i];
-    return kColors[static_cast<std::size_t>(std::min_element(uses.begin(), uses.end()) - uses.begin())];
-}
-
 /// What a new project begins with, to be drawn into, as long as nobody has done anything with it: whoever imports has no
 /// use for it.
 std::optional<Structure> placeholder(const State& state) {
@@ -72,6 +67,7 @@ json add_structure(SessionState& s, const Members& m) {
     Structure structure;
     structure.name = m.has("name") ? m.text("name", kMostNameBytes) : free_name(s.project.state());
     check_name(structure.name);
+    check_name_is_free(s.project.state(), structure.name);
     structure.color = m.has("color") ? m.color("color") : next_color(s.project.state());
     structure.id = s.project.new_id();
     commit(s, {"Add " + structure.name, {{structure.id, {}, structure}}, {}});
@@ -124,6 +120,25 @@ void settle_planes(const State& state, const Structure& before, Structure& after
     settle(before.mask->confirmed_planes, after.mask->confirmed_planes, after.empty_planes);
 }
 
+/// Rules call a renamed structure by its new name.
+void rename_in_rules(const State& state, Commit& step) {
+    const Structure before = *step.structures.front().before;
+    Structure& after = *step.structures.front().after;
+    check_name_is_free(state, after.name);
+    if (!before.rule && users_of(state, before.id).empty()) return;
+    for (const auto& [id, other] : state.structures)
+        if (id != before.id && other.name == after.name)
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("there is a structure named {}, and rules could not tell the two apart", after.name));
+    if (after.rule) after.rule = with_name(*after.rule, before.name, after.name);
+    for (const auto& [id, other] : state.structures) {
+        if (id == before.id || !other.rule) continue;
+        Structure renamed = other;
+        renamed.rule = with_name(*other.rule, before.name, after.name);
+        if (renamed != other) step.structures.push_back({id, other, renamed});
+    }
+}
+
 json set_structure(SessionState& s, const Members& m) {
     const Structure before = structure_of(s.project.state(), m.id("id"));
     Structure after = before;
@@ -145,8 +160,10 @@ json set_structure(SessionState& s, const Members& m) {
     if (after.color != before.color) label = "Colour " + after.name;
     if (!mask_label.empty()) label = mask_label;
     if (after.name != before.name) label = "Rename " + before.name;
-    commit(s, {label, {{after.id, before, after}}, {}});
-    return {{"structure", to_json(after)}};
+    Commit step{label, {{after.id, before, after}}, {}};
+    if (after.name != before.name) rename_in_rules(s.project.state(), step);
+    commit(s, step);
+    return {{"structure", to_json(*step.structures.front().after)}};
 }
 
 /// This one is seen and no other; where that is so already, all are.
@@ -167,6 +184,7 @@ json show_only(SessionState& s, const Members& m) {
 
 json remove_structure(SessionState& s, const Members& m) {
     const Structure structure = structure_of(s.project.state(), m.id("id"));
+    check_is_unused(s.project.state(), structure);
     Commit removed{"Delete " + structure.name, {{structure.id, structure, {}}}, {}};
     for (const auto& [id, contour] : s.project.state().contours)
         if (contour->structure == structure.id) removed.contours.push_back({id, *contour, {}});
@@ -233,6 +251,13 @@ Calls structure_calls() {
             {"structure.set", {set_structure}},
             {"structure.show_only", {show_only}},
             {"structure.remove", {remove_structure}}};
+}
+
+std::string next_color(const State& state) {
+    std::array<int, kColors.size()> uses{};
+    for (const auto& [id, structure] : state.structures)
+        for (std::size_t i = 0; i < kColors.size(); ++i) uses[i] += structure.color == kColors[i];
+    return kColors[static_cast<std::size_t>(std::min_element(uses.begin(), uses.end()) - uses.begin())];
 }
 
 std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets,

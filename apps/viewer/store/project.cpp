@@ -20,6 +20,8 @@ constexpr int kApplicationId = 0x6b6f6e74;  // "kont"
 constexpr int kVersion = 1;                 // of a project without masks, which older versions of kontur can open
 constexpr int kVersionWithMasks = 2;        // the table is made with the first one
 constexpr int kVersionWithTimes = 3;        // since the first contour of another time; older ones would take it for any
+constexpr int kVersionWithRules = 4;        // since the first structure that a rule makes; older ones would see nothing of it
+constexpr int kNewestVersion = kVersionWithRules;
 
 constexpr const char* kSchema =
     "CREATE TABLE setting (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
@@ -130,10 +132,10 @@ void write_rows(Database& database, const std::vector<Change<Row>>& changes, con
 void check_format(const std::filesystem::path& path, std::int64_t application_id, std::int64_t version) {
     if (application_id != kApplicationId)
         throw Error(ErrorKind::corrupt_file, fmt::format("{} is no kontur project", path.string()));
-    if (version < kVersion || version > kVersionWithTimes)
+    if (version < kVersion || version > kNewestVersion)
         throw Error(ErrorKind::unsupported,
                     fmt::format("{} was written by a newer kontur: its version is {}, {} is supported", path.string(),
-                                version, kVersionWithTimes));
+                                version, kNewestVersion));
 }
 
 /// `path`, once its first bytes say that it is ours, or new: SQLite alters the files of others already by opening them our
@@ -363,12 +365,15 @@ std::optional<Commit> Project::step(std::int64_t number) {
     });
 }
 
-/// An older kontur would take such contours for those of the opened volume.
+/// What an older kontur would take for something else.
 void Project::store_version(const Commit& commit) {
-    const bool has_times =
-        std::ranges::any_of(commit.contours, [](const auto& change) { return change.after && change.after->time; });
-    if (has_times && database_.number("PRAGMA user_version") < kVersionWithTimes)
-        database_.run(fmt::format("{} PRAGMA user_version = {};", kMaskTable, kVersionWithTimes).c_str());
+    int needed = 0;
+    for (const auto& change : commit.contours)
+        if (change.after && change.after->time) needed = kVersionWithTimes;
+    for (const auto& change : commit.structures)
+        if (change.after && change.after->rule) needed = kVersionWithRules;
+    if (needed > database_.number("PRAGMA user_version"))
+        database_.run(fmt::format("{} PRAGMA user_version = {};", kMaskTable, needed).c_str());
 }
 
 void Project::store_masks(const Commit& commit) {

@@ -10,7 +10,6 @@
 #include "kontur/extract/surface_band.h"
 #include "kontur/sampling/sample_surface.h"
 #include "kontur/shape/crossings.h"
-#include "kontur/view/outline.h"
 #include "viewer/model/stage_words.h"
 
 namespace kontur::viewer {
@@ -70,6 +69,7 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
                     : update.asks_image      ? SurfaceStage::asking
                                              : SurfaceStage::finished;
     surface.mesh = std::make_shared<const TriangleMesh>(update.surface.mesh);
+    surface.function = update.surface.function;
     for (const FoundSide& found : update.surface.sides)
         if (are_drawn({task.ids[found.contour]}))
             surface.sides.push_back({task.ids[found.contour], found.inside, found.is_sure});
@@ -97,35 +97,6 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
 }
 
 }  // namespace
-
-PlaneCutters cutters(const Surface& surface) {
-    const auto cutter = [](const std::shared_ptr<const TriangleMesh>& mesh) -> PlaneCutter {
-        if (!mesh) return {};
-        return [mesh](const Plane& plane) {
-            std::vector<std::vector<Vec3>> lines;
-            for (Polyline& line : outline(*mesh, plane))
-                lines.push_back(std::move(line.points));  // of a closed mesh: closed
-            return lines;
-        };
-    };
-    return {cutter(surface.mesh), cutter(surface.without_image), surface.time};
-}
-
-std::string_view name(SurfaceStage stage) noexcept {
-    switch (stage) {
-        case SurfaceStage::outdated:
-            return "outdated";
-        case SurfaceStage::preview:
-            return "preview";
-        case SurfaceStage::asking:
-            return "asking";
-        case SurfaceStage::finished:
-            return "finished";
-        case SurfaceStage::none:
-            break;
-    }
-    return "none";
-}
 
 Surfaces::~Surfaces() {
     end_editors();
@@ -156,6 +127,7 @@ void Surfaces::outdate(const std::set<Id>& structures) {
         outdate_locked(structure);
         motions_.outdate(structure);
     }
+    for (const Id made : derivations_.made_of(structures)) outdate_locked(made);  // they follow by themselves
 }
 
 void Surfaces::outdate_locked(Id structure) {
@@ -187,7 +159,7 @@ void Surfaces::follow_later(SurfaceTask task) {
     const std::scoped_lock lock(mutex_);
     std::erase_if(later_, [&](const SurfaceTask& waiting) { return waiting.structure == task.structure; });
     const auto follower = followers_.find(task.structure);
-    if (follower != followers_.end() && follower->second.is_working) return start(std::move(task));
+    if (task.rule || (follower != followers_.end() && follower->second.is_working)) return start(std::move(task));
     later_.push_back(std::move(task));
     start_next();
 }
@@ -212,6 +184,8 @@ void Surfaces::start(SurfaceTask task) {
     else motions_.forget(structure);
     Follower& follower = followers_[structure];
     follower.is_outdated = false;
+    if (task.rule) return start_rule(follower, std::move(*task.rule));
+    derivations_.forget(structure);
     if (task.mask) return start_mask(follower, std::move(task));
     if (follower.mask_editor) {
         retired_.push_back(std::move(follower.mask_editor));
@@ -272,6 +246,7 @@ void Surfaces::wait() {
         is_done = is_done && later_.empty();
     }
     motions_.wait();
+    derivations_.wait();
 }
 
 std::map<Id, std::shared_ptr<const Surface>> Surfaces::all() const {
@@ -392,6 +367,7 @@ void Surfaces::publish_locked(Surface surface) {
     auto& latest = latest_[surface.structure];
     latest = std::make_shared<const Surface>(std::move(surface));
     listener_.surface(latest);
+    derivations_.heard(latest->structure);
 }
 
 }  // namespace kontur::viewer

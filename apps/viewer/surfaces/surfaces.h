@@ -18,6 +18,7 @@
 #include "kontur/sureness/surface_evidence.h"
 #include "viewer/model/model.h"
 #include "viewer/surfaces/border_sharing.h"
+#include "viewer/surfaces/derivations.h"
 #include "viewer/surfaces/edges_beside.h"
 #include "viewer/surfaces/mask_editor.h"
 #include "viewer/surfaces/motions.h"
@@ -82,6 +83,8 @@ struct Surface {
     std::shared_ptr<const TriangleMesh> without_image;  ///< what the contours alone make; null where no image was used
     std::shared_ptr<const MaskEdit> corrected;          ///< of a mask to be corrected; null else
     std::optional<int> time;                            ///< of a structure that moves: it is its surface at this time alone
+    std::optional<ImplicitFunction> function;           ///< that the mesh is the surface of; none of masks and shared borders
+    bool is_derived = false;                            ///< a rule made it
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.
@@ -98,6 +101,7 @@ struct SurfaceTask {
     /// Of a structure that moves: all of it. `set` then holds the contours of one time, and sections that stand for others.
     std::optional<MotionTask> motion{};
     int time = 0;  ///< of the contours of a structure that moves
+    std::optional<RuleTask> rule{};  ///< that makes it; there are no contours then
 };
 
 /// A surface as it is seen at one time.
@@ -141,7 +145,9 @@ public:
           motions_([this] { return next_revision(); },
                    [this](const std::shared_ptr<const Motion>& motion) {
                        if (listener_.motion) listener_.motion(motion);
-                   }) {}
+                   }),
+          derivations_([this] { return all(); }, [this](Surface surface) { publish_derived(std::move(surface)); },
+                       [this](std::optional<double> done) { show_derivation(done); }) {}
     ~Surfaces();
     Surfaces(const Surfaces&) = delete;
     Surfaces& operator=(const Surfaces&) = delete;
@@ -170,6 +176,9 @@ public:
     std::map<Id, std::shared_ptr<const Surface>> all() const;
     /// What is seen of each structure at a time: of one that moves its surface there, as far as it has been made.
     std::map<Id, ShownSurface> at(int time) const;
+    /// What the rule would make of what is seen just now. Throws Error(invalid_input) where something is not there yet, and
+    /// as derived_surfaces does.
+    TriangleMesh preview_of(const RuleTask& task) { return derivations_.preview(task); }
     /// Structures that move, at all times.
     Motions& motions() { return motions_; }
     const Motions& motions() const { return motions_; }
@@ -220,6 +229,11 @@ private:
     void begin_mask_editor(Follower& follower, Id structure, const std::shared_ptr<const StoredMask>& mask);
     void hear_mask(Id structure, std::uint64_t edit, const MaskUpdate& update);
 
+    // Structures that rules make (surfaces_derived.cpp).
+    void start_rule(Follower& follower, RuleTask task);
+    void publish_derived(Surface surface);
+    void show_derivation(std::optional<double> done);
+
     bool is_busy_locked() const;
     bool hand_over(const SurfaceTask& task, const Alone& alone);
     bool ask_to_share_locked();
@@ -244,7 +258,8 @@ private:
     Retired retired_;                   ///< not needed any more; an editor's own thread cannot end it
     std::map<Id, Follower> followers_;  ///< their threads use all above
     std::thread sharing_thread_;        ///< it does, too
-    Motions motions_;                   ///< last: its thread does
+    Motions motions_;                   ///< its thread does
+    Derivations derivations_;           ///< last: its thread uses all above
 };
 
 }  // namespace kontur::viewer

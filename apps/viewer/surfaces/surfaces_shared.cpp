@@ -18,6 +18,7 @@ Surface with_mesh(const Surface& alone, std::shared_ptr<const TriangleMesh> mesh
     surface.revision = 0;
     if (mesh == alone.mesh) return surface;
     surface.mesh = std::move(mesh);
+    surface.function.reset();
     surface.volume_ml = signed_volume_mm3(*surface.mesh) / 1000;
     SurfaceEvidence evidence = *surface.evidence;
     evidence.volume_mm3 = 1000 * surface.volume_ml;

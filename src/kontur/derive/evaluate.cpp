@@ -32,6 +32,7 @@ Levels evaluate(const Expression& e, const RuleScene& scene, const Work& work) {
         case Operation::name:
             return scene.levels.at(e.name);
         case Operation::body:
+            if (scene.body) return scene.body(e.threshold);
             return mask_levels(body_outline(*scene.image, e.threshold, work), scene.lattice, work);
         case Operation::join:
             return join(operand(0), operand(1), work);

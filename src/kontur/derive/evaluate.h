@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "kontur/base/work.h"
@@ -15,6 +17,7 @@ namespace kontur {
 struct RuleScene {
     WorkLattice lattice;
     const Image* image = nullptr;            ///< for body()
+    std::function<Levels(const std::optional<double>& threshold)> body{};  ///< in place of the image, where it is known
     std::map<std::string, Levels> levels{};  ///< of each structure that is known so far
 };
 

@@ -79,7 +79,20 @@ private:
     std::size_t at_ = 0;
 };
 
+std::string marked(const std::string& rule, std::size_t place, std::string_view sentence) {
+    constexpr std::size_t kAround = 200;  // bytes of a long rule beside the place
+    const std::string_view all = rule;
+    const std::size_t from = place > kAround ? place - kAround : 0;
+    const auto column = 1 + std::count_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(place),
+                                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    return fmt::format("rule `{}^{}`, column {}: {}", all.substr(from, place - from), all.substr(place, kAround), column,
+                       sentence);
+}
+
 }  // namespace
+
+RuleError::RuleError(const std::string& rule, std::size_t place, std::string_view sentence)
+    : Error(ErrorKind::invalid_input, marked(rule, place, sentence)), rule_(rule), sentence_(sentence), place_(place) {}
 
 std::vector<RuleWord> words_of(const std::string& rule) {
     if (rule.size() > kMostBytes)
@@ -90,13 +103,7 @@ std::vector<RuleWord> words_of(const std::string& rule) {
 }
 
 void refuse_rule(const std::string& rule, std::size_t place, std::string_view sentence) {
-    constexpr std::size_t kAround = 200;  // bytes of a long rule beside the place
-    const std::string_view all = rule;
-    const std::size_t from = place > kAround ? place - kAround : 0;
-    const auto column = 1 + std::count_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(place),
-                                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-    throw Error(ErrorKind::invalid_input, fmt::format("rule `{}^{}`, column {}: {}", all.substr(from, place - from),
-                                                      all.substr(place, kAround), column, sentence));
+    throw RuleError(rule, place, sentence);
 }
 
 }  // namespace kontur

@@ -222,9 +222,9 @@ export class Project extends Emitter<Topic> {
     return [...this.contours.values()].filter((contour) => contour.structure === structure);
   }
 
-  /** Whether there is anything of it: contours, or a mask. */
-  hasContent({ id, mask }: Structure): boolean {
-    return mask !== undefined || this.contoursOf(id).length > 0;
+  /** Whether there is anything of it: contours, a mask, or a rule. */
+  hasContent({ id, mask, rule }: Structure): boolean {
+    return mask !== undefined || rule !== undefined || this.contoursOf(id).length > 0;
   }
 
   /** The structure that new contours belong to; undefined when there is none. */

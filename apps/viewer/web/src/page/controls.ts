@@ -91,6 +91,7 @@ export class Controls {
       ...this.actions,
       points: editor.points,
       call: editor.make,
+      ask: (name, args) => this.services.server.socket.call(name, args),
       identity: this.identity.element,
       near: this.near.element,
       secondImage: this.secondCard.element,

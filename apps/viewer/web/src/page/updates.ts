@@ -66,6 +66,7 @@ function updateViews({ models, editor, stage }: UpdateParts): void {
   editor.points.on(["points"], paint);
   editor.drawing.on(["sketch"], paint);
   editor.proposals.on(["proposal"], paint);
+  editor.rulePreview.on(["preview"], paint);
 }
 
 function updateSurface({ models, editor, stage }: UpdateParts): void {

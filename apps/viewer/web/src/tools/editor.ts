@@ -20,6 +20,7 @@ import { Proposals } from "./proposals";
 import { Pushing } from "./pushing";
 import { TOOLS, toolNamed, type ToolName } from "./registry";
 import type { EditorServices } from "./services";
+import { RulePreview } from "./rule_preview";
 import { SinglePoints } from "./single_points";
 import type { Hover, Tool, ToolContext } from "./tool";
 
@@ -39,6 +40,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   readonly points: SinglePoints;
   readonly planesOfMask: PlanesOfMask;
   readonly measuring = new Measuring();
+  readonly rulePreview = new RulePreview();
 
   constructor(
     readonly navigation: Navigation,
@@ -94,13 +96,21 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   }
 
   press(view: ViewName, screen: Screen, pointer: Point2, modifiers: Modifiers): Gesture | null {
-    if (this.isBare || this.mayNotEdit()) return null;
+    if (this.isBare || this.mayNotEdit() || this.isMadeByRule()) return null;
     return this.tool.press(this, this.place(view, screen, pointer), modifiers);
   }
 
   /** Whether the tool would edit what belongs to another time than the one that is seen. Says so. */
   mayNotEdit(): boolean {
     return !this.tool.looksAround && this.isAnotherTime();
+  }
+
+  /** Whether a line would be drawn into a structure that a rule makes. Says so. */
+  private isMadeByRule(): boolean {
+    const active = this.project.activeStructure;
+    if (active?.rule === undefined || !this.tool.stretch || this.drawing.sketch) return false;
+    this.services.tell(`${active.name} is made by the rule ${active.rule}. Freeze it to draw in it, or choose another structure.`);
+    return true;
   }
 
   /** What a button asks for: as keys do, it changes nothing that belongs to another time than the one that is seen. */

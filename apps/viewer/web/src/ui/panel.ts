@@ -7,11 +7,12 @@ import { button, el } from "../dom/dom";
 import { ICONS } from "../dom/icons";
 import { render } from "../dom/pieces";
 import { qualityOf } from "./quality";
+import { RuleLine, type RuleServices } from "./rule_line";
 import { SmoothingSlider } from "./smoothing";
 import { StructureList } from "./structure_list";
 import { UseImageSwitch } from "./use_image";
 
-export interface PanelServices extends RowServices, ActionServices {
+export interface PanelServices extends RowServices, ActionServices, Omit<RuleServices, "preview"> {
   /** Whose image it is. */
   identity: HTMLElement;
   /** What others have drawn on it. */
@@ -33,9 +34,17 @@ export class Panel {
 
   constructor(private readonly services: PanelServices) {
     const { project } = services;
-    this.list = new StructureList(services, () => this.update());
+    const rule = new RuleLine({ ...services, preview: services.editor.rulePreview });
+    this.list = new StructureList({ ...services, editRule: (line) => rule.open(line) }, () => this.update());
     this.actions = new ContourActions(services);
     const add = button({ icon: ICONS.add, title: "Add a structure", class: "icon-button small", test: "add-structure", click: services.addStructure });
+    const addRule = button({
+      icon: ICONS.rule,
+      title: "Add a structure that follows others by a rule, as PTV = CTV + 5 mm",
+      class: "icon-button small",
+      test: "add-rule",
+      click: () => rule.open(),
+    });
     const measure = button({
       icon: ICONS.statistics,
       title: "Statistics: volume, surface, diameters, values of all structures",
@@ -47,7 +56,8 @@ export class Panel {
       services.identity,
       services.near,
       services.secondImage,
-      el("div", { class: "panel-title" }, el("span", {}, "Structures"), add),
+      el("div", { class: "panel-title" }, el("span", {}, "Structures"), el("span", { class: "panel-buttons" }, addRule, add)),
+      rule.element,
       this.list.filter,
       this.list.element,
       new BorderPanel(services).element,

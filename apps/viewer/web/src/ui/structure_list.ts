@@ -9,6 +9,7 @@ import { confirmedPlaneRows } from "./corrections";
 import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "../dom/icons";
 import { piece, render, type Piece } from "../dom/pieces";
+import { ruleFlag, ruleRow, type RuleRowServices } from "./rule_rows";
 import { keepSliderKeys } from "./second_image_card";
 import { singlePointRows } from "./single_points";
 
@@ -37,7 +38,7 @@ export class StructureList {
   private inSight: { active: number; newest: number; selected: number | undefined } = { active: 0, newest: 0, selected: undefined };
 
   constructor(
-    private readonly services: RowServices,
+    private readonly services: RowServices & RuleRowServices,
     /** Has `update` called soon. */
     private readonly refresh: () => void,
   ) {
@@ -141,6 +142,7 @@ export class StructureList {
       { key: structure.id, class: "structure", "data-structure": structure.id },
       row,
       isActive ? this.look(structure) : null,
+      ...ruleRow(structure, this.services),
       ...this.listOf(structure),
     );
   }
@@ -270,6 +272,7 @@ export class StructureList {
     };
     return [
       ...(structure.mask ? [piece("span", { class: "flag", "data-test": "is-mask", title: "A mask: what is drawn into it corrects it" }, "mask")] : []),
+      ...(structure.rule === undefined ? [] : [ruleFlag(structure.rule)]),
       buttonPiece({
         label: String(project.contoursOf(id).length),
         title: isOpen ? "Hide the list of contours" : "List the contours",

@@ -182,6 +182,18 @@ export class OverlayPainter implements ToolPainter {
     this.text("Enter accepts, Esc drops", [x, Math.max(y - 8, 52)], "center", "bottom", `${this.fontPixels}px system-ui, sans-serif`);
   }
 
+  /** What a rule would make. */
+  rule(lines: readonly (readonly Vec3[])[]): void {
+    this.ctx.lineJoin = "round";
+    for (const line of lines) {
+      const path = this.path(line, true);
+      this.stroke(path, SHADE, 1.6 * this.appearance.width + 2);
+      this.ctx.setLineDash([3, 4]);
+      this.stroke(path, INK, 1.6 * this.appearance.width);
+      this.ctx.setLineDash([]);
+    }
+  }
+
   /** A distance, or the legs of an angle. */
   measurement(points: readonly Vec3[], text: string, selected: boolean): void {
     const seen = points.map((p) => toScreen(this.screen, p));

@@ -62,6 +62,7 @@ export class SliceVectors {
     this.paintPoints(painter, screen);
     this.paintRings(painter, screen);
     this.paintProposal(painter, screen);
+    this.paintRule(painter, screen);
     this.paintSketch(painter, screen);
     this.paintMeasurements(painter, screen);
     this.services.editor.paint(painter, this.name);
@@ -159,6 +160,11 @@ export class SliceVectors {
     const step = navigation.step(this.name);
     for (const one of measurements.lyingIn(planeOf(screen), step)) painter.measurement(one.points, measured(one), one === measurements.selected);
     if (begun && coincide(begun.plane, planeOf(screen), step / 2)) painter.measurement(begun.points, measured(begun), true);
+  }
+
+  private paintRule(painter: OverlayPainter, screen: Screen): void {
+    const { editor } = this.services;
+    for (const { plane, lines } of editor.rulePreview.shown) if (coincide(plane, planeOf(screen), MOST_APART_MM)) painter.rule(lines);
   }
 
   private paintProposal(painter: OverlayPainter, screen: Screen): void {

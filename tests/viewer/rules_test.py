@@ -135,20 +135,20 @@ def test_it_goes_out_as_dicom_as_kontur_derive_writes_it(tmp_path):
     series = tmp_path / "made" / "dicom"
     with running(tmp_path, series, "--project", tmp_path / "a.kontur") as server:
         page = server.page()
-        ctv = drawn(page, "CTV", 7)
-        page.do("rule.set", line="PTV = CTV + 5 mm")
+        ctv = drawn(page, "CTV", 2.6)
+        page.do("rule.set", line="PTV = CTV + 2 mm")
         (tmp_path / "ctv.json").write_bytes(exported(server, "contours.json", ctv))
         regions = pydicom.dcmread(saved(tmp_path, server, "rtstruct.dcm"))
         segments = pydicom.dcmread(saved(tmp_path, server, "seg.dcm"))
-    derive(tmp_path, "PTV = CTV + 5 mm", "-i", "ctv.json", "--image", series, "--output", "own.dcm", "--rtstruct", "own_rt.dcm")
+    derive(tmp_path, "PTV = CTV + 2 mm", "-i", "ctv.json", "--image", series, "--output", "own.dcm", "--rtstruct", "own_rt.dcm")
     own_regions, own_segments = pydicom.dcmread(tmp_path / "own_rt.dcm"), pydicom.dcmread(tmp_path / "own.dcm")
     roi = {one.ROIName: one for one in regions.StructureSetROISequence}["PTV"]
     own = own_regions.StructureSetROISequence[0]
-    assert (roi.ROIGenerationAlgorithm, roi.ROIDescription) == (own.ROIGenerationAlgorithm, own.ROIDescription) == ("AUTOMATIC", "derived: PTV = CTV + 5 mm")
+    assert (roi.ROIGenerationAlgorithm, roi.ROIDescription) == (own.ROIGenerationAlgorithm, own.ROIDescription) == ("AUTOMATIC", "derived: PTV = CTV + 2 mm")
     kinds = {one.ReferencedROINumber: one.RTROIInterpretedType for one in regions.RTROIObservationsSequence}
     assert kinds[roi.ROINumber] == "PTV"
     lines = {one.ReferencedROINumber: [item.ContourData for item in one.ContourSequence] for one in regions.ROIContourSequence}
     assert lines[roi.ROINumber] == [item.ContourData for item in own_regions.ROIContourSequence[0].ContourSequence]
     segment = {one.SegmentLabel: one for one in segments.SegmentSequence}["PTV"]
     assert (segment.SegmentAlgorithmType, segment.SegmentAlgorithmName) == ("AUTOMATIC", "kontur derive")
-    assert (segment.SegmentDescription, own_segments.SegmentSequence[0].SegmentAlgorithmName) == ("derived: PTV = CTV + 5 mm", "kontur derive")
+    assert (segment.SegmentDescription, own_segments.SegmentSequence[0].SegmentAlgorithmName) == ("derived: PTV = CTV + 2 mm", "kontur derive")

@@ -28,11 +28,13 @@ fs::path cache_folder() {
     return folder;
 }
 
-fs::path study_folder(const Address& address) {
+fs::path service_folder(const Address& address) {
     std::string host = address.host();
     std::replace(host.begin(), host.end(), ':', '_');
-    return cache_folder() / host / address.study_uid;
+    return cache_folder() / host;
 }
+
+fs::path study_folder(const Address& address) { return service_folder(address) / address.study_uid; }
 
 fs::path path_of(const fs::path& folder) {
     const std::vector<fs::path> files{fs::directory_iterator(folder), {}};
@@ -58,6 +60,12 @@ void fetch_drawings_to_cache(Http& http, const std::vector<Series>& all, const A
     for (const Series& one : all)
         if (one.modality == "SEG" || one.modality == "RTSTRUCT")
             fetch_to_cache(http, {study.service, study.study_uid, one.uid, ""}, work);
+}
+
+bool came_from(const Address& service, const fs::path& path) {
+    std::error_code failure;
+    const fs::path folder = fs::weakly_canonical(service_folder(service), failure), file = fs::weakly_canonical(path, failure);
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
 fs::path fetch_object_to_cache(Http& http, const Address& instance, const Work& work) {

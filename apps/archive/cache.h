@@ -18,6 +18,9 @@ std::filesystem::path fetch_to_cache(Http& http, const Address& series, const Wo
 /// Those series that hold what was drawn, into folders beside the images, where `kontur open` looks for them.
 void fetch_drawings_to_cache(Http& http, const std::vector<Series>& all, const Address& study, const Work& work);
 
+/// Whether a path lies among what came from this service.
+bool came_from(const Address& service, const std::filesystem::path& path);
+
 /// One object. Throws as `fetch_instance`.
 std::filesystem::path fetch_object_to_cache(Http& http, const Address& instance, const Work& work);
 

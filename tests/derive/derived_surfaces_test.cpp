@@ -63,7 +63,7 @@ TEST(DerivedSurfaces, EncloseTheVoxelsThatDeriveMakes) {
 TEST(DerivedSurfaces, OnLargerVoxelsAreNearlyTheSame) {
     const DrawnBall ball;
     const auto fine = derived_surfaces(kRules, std::array{ball.for_screens()}, {ball.grid});
-    const auto coarse = derived_surfaces(kRules, std::array{ball.for_screens()}, {ball.grid, 20'000});
+    const auto coarse = derived_surfaces(kRules, std::array{ball.for_screens()}, {ball.grid, 60'000});
     for (std::size_t n = 0; n < 3; ++n) {
         EXPECT_LT(coarse[n].triangles.size(), fine[n].triangles.size());
         EXPECT_NEAR(ml(coarse[n]) / ml(fine[n]), 1, 0.04) << kRules[n];

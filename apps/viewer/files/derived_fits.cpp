@@ -8,6 +8,7 @@
 #include "kontur/derive/derive.h"
 #include "kontur/derive/derived_attributes.h"
 #include "kontur/derive/derived_surfaces.h"
+#include "viewer/model/file_names.h"
 
 namespace kontur::viewer {
 namespace {

@@ -233,6 +233,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const StopToken& stop) {
     if (get && target.path == "/api/drawings") return drawings(request, stop);
     if (!get && below("/api/import/")) return import(request, stop);
     if (!get && target.path == "/api/image") return put_image(request, stop);
+    if (!get && target.path == "/api/archive/send") return send(request, stop);
     if (auto reply = start_api(workspace_, request.method, target, request.body, stop))
         return {200, std::move(reply->content_type), std::move(reply->body), {}};
     return not_found();
@@ -264,6 +265,12 @@ HttpReply HttpApi::put_image(const HttpRequest& request, const StopToken& stop) 
     const json document = parsed_request(request.body, "ImageRequest");
     workspace_.put_second_image(open_request_from(document), request.opening, stop);
     return {200, "application/json", "{}", {}};
+}
+
+HttpReply HttpApi::send(const HttpRequest& request, const StopToken& stop) {
+    const json document = parsed_request(request.body, "SendRequest");
+    const ArchiveOutbox::Item item{document["name"].get<std::string>(), document.value("again", false)};
+    return {200, "application/json", to_text(workspace_.send_to_archive(item, request.opening, stop)), {}};
 }
 
 HttpReply HttpApi::compared(const HttpRequest& request, const StopToken& stop) {

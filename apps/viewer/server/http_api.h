@@ -58,6 +58,7 @@ private:
     HttpReply mesh(const HttpRequest& request);
     HttpReply measured(const HttpRequest& request, const StopToken& stop);
     HttpReply put_image(const HttpRequest& request, const StopToken& stop);
+    HttpReply send(const HttpRequest& request, const StopToken& stop);
     HttpReply compared(const HttpRequest& request, const StopToken& stop);
     HttpReply exported(const HttpRequest& request, const StopToken& stop);
     HttpReply drawings(const HttpRequest& request, const StopToken& stop);

@@ -113,11 +113,13 @@ std::string Workspace::greeting(PageId page) {
         opened = opened_;
     }
     const std::string modality = session->modality();
-    return session->greeting({{"opening", std::to_string(opened)},
-                              {"can_close", services_.open != nullptr},
-                              {"places", places_json()},
-                              {"folder", services_.places.folder_of(session->image_path())},
-                              {"arrangement", {{"modality", modality}, {"state", arrangements_.of(modality)}}}});
+    json more{{"opening", std::to_string(opened)},
+              {"can_close", services_.open != nullptr},
+              {"places", places_json()},
+              {"folder", services_.places.folder_of(session->image_path())},
+              {"arrangement", {{"modality", modality}, {"state", arrangements_.of(modality)}}}};
+    if (takes_objects(*session)) more["archive"] = services_.archive->service.host();
+    return session->greeting(more);
 }
 
 std::string Workspace::call(std::string_view message, PageId page) {
@@ -274,6 +276,22 @@ void Workspace::open(const OpenRequest& request) {
 const NamedArchive& Workspace::archive() const {
     if (!services_.archive) throw Error(ErrorKind::unsupported, "kontur was started without an archive (--archive)");
     return *services_.archive;
+}
+
+bool Workspace::takes_objects(const Session& session) const {
+    return services_.archive && archive::came_from(services_.archive->service, session.image_path());
+}
+
+json Workspace::send_to_archive(const ArchiveOutbox::Item& item, const std::optional<std::string>& opening,
+                                const StopToken& stop) {
+    const std::shared_ptr<Session> open = session(opening);
+    if (!takes_objects(*open))
+        throw Error(ErrorKind::unsupported,
+                    fmt::format("the image did not come from {}, and what is made on it does not go there",
+                                archive().service.host()));
+    const StatusLine line([this](const std::string& said, std::optional<double> done) { tell_status(said, done); },
+                          fmt::format("Sending to {}", archive().service.host()));
+    return outbox_.send(archive(), *open, item, stop);
 }
 
 void Workspace::open_archived(const std::string& study_uid, const std::string& series_uid, const std::string& title) {

@@ -16,9 +16,9 @@
 #include <string_view>
 #include <thread>
 
-#include "archive/http.h"
 #include "kontur/base/stop.h"
 #include "kontur/base/work.h"
+#include "viewer/server/archive_outbox.h"
 #include "viewer/session/session.h"
 #include "viewer/store/arrangements.h"
 #include "viewer/store/places.h"
@@ -35,12 +35,6 @@ struct OpenRequest {
 
 /// The path that stands for the built-in example image.
 inline constexpr const char* kExample = "phantom";
-
-/// The archive that the command named: the only one that pages reach, and that without its address or its password.
-struct NamedArchive {
-    archive::Address service;
-    archive::Access access;
-};
 
 /// What the server serves: a start page until something is open, then its session, then the start page again. One at a time,
 /// for all pages; reading runs in the background. Safe for concurrent use.
@@ -109,6 +103,12 @@ public:
     const Places& places() const { return services_.places; }
     /// Throws Error(unsupported) where the command named none.
     const NamedArchive& archive() const;
+    /// Whether the image came from the archive that the command named, which then takes what is made on it.
+    bool takes_objects(const Session& session) const;
+    /// For pages: sends an export to the archive that the image came from (ArchiveOutbox). Throws Error(unsupported) where
+    /// it came from elsewhere.
+    nlohmann::json send_to_archive(const ArchiveOutbox::Item& item, const std::optional<std::string>& opening,
+                                   const StopToken& stop);
     /// How the page is arranged for images of each modality.
     Arrangements& arrangements() { return arrangements_; }
     /// Tells pages' status lines what is being done; "": nothing.
@@ -138,6 +138,7 @@ private:
     RecentProjects recent_;
     Arrangements arrangements_;
     std::mutex reading_second_;
+    ArchiveOutbox outbox_;
 
     std::mutex listener_mutex_;
     std::function<void(const std::string&)> listener_;

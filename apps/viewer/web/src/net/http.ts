@@ -12,6 +12,8 @@ import type {
   NearDrawing,
   OpenRequest,
   SavedArrangement,
+  SendRequest,
+  SentReply,
   SliceHeader,
   SliceRequest,
   Statistics,
@@ -121,6 +123,11 @@ export class Http {
   /** Begins to fetch and to read; events tell the rest. */
   async openArchived(request: ArchivedRequest): Promise<void> {
     await this.post("archive/open", JSON.stringify(request));
+  }
+
+  /** Sends an export to the archive that the image came from; `again`: what did not arrive last time. */
+  async send(name: SendRequest["name"], again: boolean, signal: AbortSignal): Promise<SentReply> {
+    return (await (await this.request("archive/send", { method: "POST", body: JSON.stringify({ name, again }), signal })).json()) as SentReply;
   }
 
   /** Gives up what is being read. */

@@ -120,7 +120,7 @@ export class PageActions {
     const { panes, surface, project, session } = this.services;
     const picture = () => snapshot({ stage: panes.element, redraw3D: () => surface.redraw(), cube: () => surface.cubePlace(), project, session: session()! });
     const setLabel = async (id: number, label_value: number | "automatic") => void (await this.services.socket.call("structure.set", { id, label_value }));
-    openExport({ ...this.services, hasDicom: () => session()?.has_dicom ?? false, snapshot: picture, setLabel });
+    openExport({ ...this.services, hasDicom: () => session()?.has_dicom ?? false, archive: () => session()?.archive, snapshot: picture, setLabel });
   };
 
   readonly openStatistics = (): void => {

@@ -7,6 +7,7 @@ import { download } from "./download";
 import { ICONS } from "../dom/icons";
 import { LabelTable } from "./label_table";
 import { render } from "../dom/pieces";
+import { Sending } from "./sending";
 
 /** A modal window; Esc and a click beside it close it. */
 export function openDialog(title: string, name: string, ...content: HTMLElement[]): HTMLDialogElement {
@@ -79,6 +80,8 @@ export interface ExportServices {
   http: Http;
   /** Whether the image is a DICOM series, to which other objects can refer. */
   hasDicom(): boolean;
+  /** Host of the archive that the image came from, and that takes what is made on it; undefined: none. */
+  archive(): string | undefined;
   /** A picture of what is seen. */
   snapshot(): Promise<Blob>;
   project: Project;
@@ -96,7 +99,7 @@ function missing({ drawing }: Editor): HTMLElement[] {
   return [el("p", { class: "warning-text", "data-test": "export-missing" }, `${what}: no export contains it.`)];
 }
 
-export function openExport({ http, project, editor, hasDicom, snapshot, setLabel }: ExportServices): void {
+export function openExport({ http, project, editor, hasDicom, archive, snapshot, setLabel }: ExportServices): void {
   const structure = el("select", { title: "Structure to export", "data-test": "export-structure" });
   for (const { id, name } of project.structures.values())
     structure.append(el("option", { value: String(id), selected: id === project.activeStructure?.id }, name));
@@ -149,6 +152,8 @@ export function openExport({ http, project, editor, hasDicom, snapshot, setLabel
     el("h3", {}, "All structures at once"),
     el("div", { class: "choices" }, ...files.map(([name, label, extension]) => entry(name, label, extension, () => null))),
   );
+  const host = archive();
+  const sending = host === undefined ? null : new Sending(http, host);
   const labels = new LabelTable({ project, setLabel, failed: (sentence) => render(status, [sentence]) });
   const whole = el(
     "div",
@@ -165,6 +170,7 @@ export function openExport({ http, project, editor, hasDicom, snapshot, setLabel
     "export-dialog",
     ...missing(editor),
     all,
+    ...(sending ? [sending.element] : []),
     labels.element,
     el("label", { class: "field" }, "One structure", structure),
     ...groups,
@@ -175,6 +181,7 @@ export function openExport({ http, project, editor, hasDicom, snapshot, setLabel
   dialog.addEventListener("close", () => {
     running?.abort();
     labels.close();
+    sending?.close();
   });
 }
 

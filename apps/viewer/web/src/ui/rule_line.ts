@@ -214,7 +214,13 @@ export class RuleLine {
     const place =
       at === undefined
         ? null
-        : piece("code", { class: "rule-place", "data-test": "rule-place" }, line.slice(0, at), piece("mark", {}, wordAt(line, at)), line.slice(at + wordAt(line, at).length));
+        : piece(
+            "code",
+            { class: "rule-place", "data-test": "rule-place" },
+            line.slice(0, at),
+            piece("mark", {}, wordAt(line, at)),
+            line.slice(at + wordAt(line, at).length),
+          );
     return piece("div", { key: "problem", class: "rule-problem", role: "status", "data-test": "rule-problem" }, place, piece("p", {}, sentence(problem.text)));
   }
 }

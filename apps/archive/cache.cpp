@@ -64,7 +64,8 @@ void fetch_drawings_to_cache(Http& http, const std::vector<Series>& all, const A
 
 bool came_from(const Address& service, const fs::path& path) {
     std::error_code failure;
-    const fs::path folder = fs::weakly_canonical(service_folder(service), failure), file = fs::weakly_canonical(path, failure);
+    const fs::path folder = fs::weakly_canonical(service_folder(service), failure),
+                   file = fs::weakly_canonical(path, failure);
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 

@@ -18,8 +18,9 @@ struct DeriveOutput {
     bool is_derived = true;
 };
 
-/// What rules made, behind their sources where these are asked for. Types of an RTSTRUCT are those of --type, else they follow
-/// from names that begin with GTV, CTV or PTV and from BODY and EXTERNAL. Throws Error(invalid_input) for a --type of none.
+/// What rules made, behind their sources where these are asked for. Types of an RTSTRUCT are those of --type, else they
+/// follow from names that begin with GTV, CTV or PTV and from BODY and EXTERNAL. Throws Error(invalid_input) for a --type of
+/// none.
 std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const DeriveSources& sources,
                                          std::vector<DerivedStructure> made, const Work& work);
 

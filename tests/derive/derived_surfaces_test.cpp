@@ -76,8 +76,9 @@ TEST(DerivedSurfaces, MayBeOfTheBody) {
     int asked = 0;
     DerivedSurfacesOptions options{ball.grid};
     options.body = [&](const std::optional<double>&) { return ++asked, body; };
-    const auto made = derived_surfaces(std::vector<std::string>{"Skin = body() - (body() - 3 mm)", "In = crop(A + 8 mm, body(), 2 mm)"},
-                                       std::array{ball.for_screens()}, options);
+    const auto made =
+        derived_surfaces(std::vector<std::string>{"Skin = body() - (body() - 3 mm)", "In = crop(A + 8 mm, body(), 2 mm)"},
+                         std::array{ball.for_screens()}, options);
     EXPECT_EQ(asked, 3);
     const auto shell = [](double out, double in) { return 4 * M_PI / 3 * (out * out * out - in * in * in) / 1000; };
     EXPECT_NEAR(ml(made[0]) / shell(30, 27), 1, 0.05);
@@ -86,7 +87,9 @@ TEST(DerivedSurfaces, MayBeOfTheBody) {
 
 TEST(DerivedSurfaces, NothingLeftHasNoTriangles) {
     const DrawnBall ball;
-    EXPECT_TRUE(derived_surfaces(std::vector<std::string>{"X = A - A"}, std::array{ball.for_screens()}, {ball.grid}).front().triangles.empty());
+    EXPECT_TRUE(derived_surfaces(std::vector<std::string>{"X = A - A"}, std::array{ball.for_screens()}, {ball.grid})
+                    .front()
+                    .triangles.empty());
 }
 
 }  // namespace

@@ -53,7 +53,9 @@ struct Visit {
             if (one["structure"] == id) return one;
         return nullptr;
     }
-    Id add(const std::string& name, double radius) { return session->add_structures("Import", {ball(name, radius)}).front(); }
+    Id add(const std::string& name, double radius) {
+        return session->add_structures("Import", {ball(name, radius)}).front();
+    }
     Structure known(Id id) const { return structure_of(session->state(), id); }
 };
 
@@ -100,8 +102,9 @@ TEST(Rules, ErrorsHaveTheirPlaceInTheLine) {
     visit.rule("PTV = Tumour + 5 mm");
     EXPECT_EQ(visit.check("PTV = Tumour + 6 mm"), (json{{"name", "PTV"}, {"is_new", false}}));
     visit.add("Tumour", 5);
-    EXPECT_NE(visit.check("Ring = Tumour + 5 mm")["problem"]["text"].get<std::string>().find("2 structures are named Tumour"),
-              std::string::npos);
+    EXPECT_NE(
+        visit.check("Ring = Tumour + 5 mm")["problem"]["text"].get<std::string>().find("2 structures are named Tumour"),
+        std::string::npos);
 }
 
 TEST(Rules, CirclesAreRefusedWithTheirMembers) {
@@ -130,7 +133,8 @@ TEST(Rules, ANewNameChangesThem) {
     EXPECT_EQ(visit.known(a).rule, "CTV = 'GTV left' + 2 mm");
     EXPECT_EQ(visit.known(b).rule, "B = CTV + 2 mm");
     EXPECT_NEAR(visit.surface(b)["volume_ml"].get<double>() / ball_ml(10), 1, 0.04);
-    EXPECT_NE(visit.refusal({{"call", "structure.add"}, {"name", "CTV"}}).find("CTV is a name in the rule"), std::string::npos);
+    EXPECT_NE(visit.refusal({{"call", "structure.add"}, {"name", "CTV"}}).find("CTV is a name in the rule"),
+              std::string::npos);
     const Id other = visit.add("Cord", 3);
     EXPECT_NE(visit.refusal({{"call", "structure.set"}, {"id", other}, {"name", "GTV left"}}), "");
     visit.done({{"call", "undo"}});
@@ -165,17 +169,20 @@ TEST(Rules, FrozenItIsAMaskThatFollowsNothing) {
     visit.done({{"call", "undo"}});
     EXPECT_EQ(visit.known(ptv).rule, "PTV = Tumour + 5 mm");
     EXPECT_EQ(visit.surface(ptv)["volume_ml"], before);
-    EXPECT_EQ(visit.refusal({{"call", "structure.freeze"}, {"id", visit.tumour}}), "Tumour is made by no rule, so nothing moves it");
+    EXPECT_EQ(visit.refusal({{"call", "structure.freeze"}, {"id", visit.tumour}}),
+              "Tumour is made by no rule, so nothing moves it");
 }
 
 TEST(Rules, APreviewSaysHowMuchItWouldBe) {
     Visit visit;
     visit.session->wait_for_surfaces();
-    const json seen = visit.done({{"call", "rule.preview"}, {"line", "PTV = Tumour + 5 mm"}, {"planes", {to_json(test::kPlane)}}});
+    const json seen =
+        visit.done({{"call", "rule.preview"}, {"line", "PTV = Tumour + 5 mm"}, {"planes", {to_json(test::kPlane)}}});
     EXPECT_NEAR(seen["volume_ml"].get<double>() / ball_ml(11), 1, 0.04);
     ASSERT_EQ(seen["lines"].size(), 1u);
     ASSERT_EQ(seen["lines"][0].size(), 1u);
-    for (const json& p : seen["lines"][0][0]) EXPECT_NEAR(std::hypot(p[0].get<double>() - 20, p[1].get<double>() - 20), 11, 0.4);
+    for (const json& p : seen["lines"][0][0])
+        EXPECT_NEAR(std::hypot(p[0].get<double>() - 20, p[1].get<double>() - 20), 11, 0.4);
     EXPECT_EQ(visit.session->state().structures.size(), 1u) << "nothing is made by it";
     visit.done({{"call", "structure.add"}, {"name", "Empty"}});
     EXPECT_EQ(visit.refusal({{"call", "rule.preview"}, {"line", "X = Empty + 5 mm"}}), "There is no surface of Empty yet.");

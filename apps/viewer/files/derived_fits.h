@@ -9,7 +9,8 @@
 namespace kontur::viewer {
 
 /// What rules make of fitted structures, among them all that is drawn and needed, as `kontur derive` makes it: where borders
-/// are shared, or corrections made, of the masks, else of the functions, too. On the image's grid. Throws what `derive` does.
+/// are shared, or corrections made, of the masks, else of the functions, too. On the image's grid. Throws what `derive`
+/// does.
 std::vector<FittedStructure> fit_derived(const RuleMembers& members, const std::vector<FittedStructure>& fitted,
                                          const State& state, const Image& image, const Work& work);
 

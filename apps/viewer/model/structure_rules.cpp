@@ -36,10 +36,11 @@ const Structure& the_one(const State& state, const std::string& name, const std:
 void check_frame(const State& state, const Structure& structure, const std::string& rule) {
     const std::set<int> times = drawn_times(state, structure.id);
     if (structure.mask || times.empty() || times == std::set{state.opened_time}) return;
-    throw Error(ErrorKind::unsupported,
-                fmt::format("{}: {} was drawn in {}; rules take what was drawn in frame {}, which was opened", rule,
-                            structure.name, times.size() > 1 ? "several frames" : fmt::format("frame {}", *times.begin() + 1),
-                            state.opened_time + 1));
+    throw Error(
+        ErrorKind::unsupported,
+        fmt::format("{}: {} was drawn in {}; rules take what was drawn in frame {}, which was opened", rule, structure.name,
+                    times.size() > 1 ? "several frames" : fmt::format("frame {}", *times.begin() + 1),
+                    state.opened_time + 1));
 }
 
 }  // namespace

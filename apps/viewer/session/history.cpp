@@ -197,8 +197,8 @@ void check_is_drawn(const State& state, Id structure) {
     const Structure& made = structure_of(state, structure);
     if (made.rule)
         throw Error(ErrorKind::invalid_input,
-                    fmt::format("{} is made by the rule {}; change the rule, or freeze {} to draw in it", made.name, *made.rule,
-                                made.name));
+                    fmt::format("{} is made by the rule {}; change the rule, or freeze {} to draw in it", made.name,
+                                *made.rule, made.name));
 }
 
 SurfaceTask surface_task(SessionState& s, Id structure) {

@@ -42,7 +42,8 @@ Structure structure_for(const State& state, const std::string& line) {
     structure.name = name;
     for (const auto& [id, one] : state.structures) {
         if (one.name != name) continue;
-        if (structure.id != 0) throw RuleError(line, place, fmt::format("2 structures are named {}; rename one of them", name));
+        if (structure.id != 0)
+            throw RuleError(line, place, fmt::format("2 structures are named {}; rename one of them", name));
         if (!one.rule && !is_bare(state, one))
             throw RuleError(line, place, fmt::format("'{}' is there; give what the rule makes another name", name));
         structure = one;
@@ -143,7 +144,8 @@ json freeze(SessionState& s, const Members& m) {
     after.attributes.color.reset();
     const std::scoped_lock lock(s.mutex);
     if (structure_of(s.project.state(), before.id) != before)
-        throw Error(ErrorKind::invalid_input, fmt::format("{} has been changed meanwhile; freeze it once more", before.name));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} has been changed meanwhile; freeze it once more", before.name));
     Commit step{"Freeze " + before.name, {{before.id, before, after}}, {}};
     step.masks.push_back(mask);
     commit(s, step);

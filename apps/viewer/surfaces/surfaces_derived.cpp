@@ -29,8 +29,6 @@ void Surfaces::publish_derived(Surface surface) {
     publish_locked(std::move(surface));
 }
 
-void Surfaces::show_derivation(std::optional<double> done) {
-    listener_.status(done ? "Following rules" : "", done);
-}
+void Surfaces::show_derivation(std::optional<double> done) { listener_.status(done ? "Following rules" : "", done); }
 
 }  // namespace kontur::viewer

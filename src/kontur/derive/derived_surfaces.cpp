@@ -131,8 +131,7 @@ std::vector<TriangleMesh> derived_surfaces(std::span<const std::string> texts, s
     check_rules(texts, names, options.body != nullptr);
     const std::vector<Rule> rules = read_rules(texts);
     const std::vector<std::size_t> order = order_of(rules);
-    const Voxels voxels =
-        voxels_in(region_of(rules, order, structures, options.grid), options.grid, options.most_voxels);
+    const Voxels voxels = voxels_in(region_of(rules, order, structures, options.grid), options.grid, options.most_voxels);
     RuleScene scene{work_lattice(voxels.grid)};
     scene.body = [&](const std::optional<double>& threshold) {
         return mask_levels(part_of(*options.body(threshold), voxels), scene.lattice, work.untold());

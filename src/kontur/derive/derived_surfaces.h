@@ -20,7 +20,7 @@ namespace kontur {
 /// A structure that rules may name, as a screen shows it.
 struct ShownStructure {
     std::string name;
-    std::shared_ptr<const TriangleMesh> mesh;     ///< closed, with at least one triangle
+    std::shared_ptr<const TriangleMesh> mesh;    ///< closed, with at least one triangle
     std::optional<ImplicitFunction> function{};  ///< that the mesh is the surface of, if there is one
 };
 
@@ -32,8 +32,8 @@ struct DerivedSurfacesOptions {
 };
 
 /// The surfaces of what rules make, in their order, for screens: as `derive` makes masks, of the part of the image that the
-/// rules can reach, from surfaces in place of masks. Closed, with normals; without triangles where nothing is left. Throws as
-/// `derive` does.
+/// rules can reach, from surfaces in place of masks. Closed, with normals; without triangles where nothing is left. Throws
+/// as `derive` does.
 std::vector<TriangleMesh> derived_surfaces(std::span<const std::string> rules, std::span<const ShownStructure> structures,
                                            const DerivedSurfacesOptions& options, const Work& work = {});
 

@@ -16,9 +16,9 @@ namespace kontur {
 /// What rules are worked out with.
 struct RuleScene {
     WorkLattice lattice;
-    const Image* image = nullptr;            ///< for body()
+    const Image* image = nullptr;                                          ///< for body()
     std::function<Levels(const std::optional<double>& threshold)> body{};  ///< in place of the image, where it is known
-    std::map<std::string, Levels> levels{};  ///< of each structure that is known so far
+    std::map<std::string, Levels> levels{};                                ///< of each structure that is known so far
 };
 
 /// Every structure that the expression names is in the scene. Throws Error(invalid_input) as body_outline does.

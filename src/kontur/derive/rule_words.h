@@ -20,8 +20,8 @@ struct RuleWord {
     std::size_t place = 0;  ///< of its first byte in the rule
 };
 
-/// The words of a rule, with one of kind `end` behind the last. Names are letters, digits, '_', '.' and whatever is no ASCII,
-/// and begin with none of the digits; all others stand in quotes, single or double. Throws as `refuse_rule` does.
+/// The words of a rule, with one of kind `end` behind the last. Names are letters, digits, '_', '.' and whatever is no
+/// ASCII, and begin with none of the digits; all others stand in quotes, single or double. Throws as `refuse_rule` does.
 std::vector<RuleWord> words_of(const std::string& rule);
 
 /// What is wrong with a rule, and where. Its sentence has a mark before the place and its column, from 1.

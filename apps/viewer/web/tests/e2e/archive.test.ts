@@ -8,7 +8,7 @@ import { createInterface } from "node:readline";
 import { after, before, test } from "node:test";
 import type { Browser } from "playwright-core";
 import { launch } from "./browsers";
-import { cleanUp, Server, temporaryFolder, Viewer } from "./support";
+import { circle, cleanUp, Server, temporaryFolder, Viewer } from "./support";
 
 const folder = temporaryFolder();
 const python = process.env["KONTUR_TEST_PYTHON"];
@@ -66,4 +66,31 @@ test("lists studies, shows the series of one with a picture, and opens it", asyn
   await card.click();
   await page.locator("[data-test=identity]", { hasText: "ID P1" }).waitFor();
   await picture(viewer, "archive_opened");
+
+  // What is made goes back, as new objects of the study; what does not arrive can be sent again.
+  await viewer.ready();
+  await viewer.closeHint();
+  await page.keyboard.press("f");
+  await viewer.drag("axial", circle(60, 36));
+  await viewer.waitForContours(1);
+  await viewer.surfaceShown();
+  await page.click("[data-test=export]");
+  await page.locator("[data-test=sending] h3", { hasText: `Send to ${new URL(address).host}` }).waitFor();
+  const said = page.locator("[data-test=sent]");
+  const modalities = async (): Promise<string[]> => {
+    const [found] = (await (await fetch(`${address}/studies?includefield=00080061`)).json()) as Record<string, { Value?: string[] }>[];
+    return found!["00080061"]?.Value ?? [];
+  };
+  assert.deepEqual(await modalities(), ["CT"]);
+  await page.click('[data-test="send-seg.dcm"]');
+  await said.filter({ hasText: "has stored it in the study of the image." }).waitFor();
+  await picture(viewer, "archive_sent");
+  assert.deepEqual((await modalities()).sort(), ["CT", "SEG"]);
+  archive!.stdin!.end();
+  await new Promise((resolve) => archive!.once("exit", resolve));
+  await page.click('[data-test="send-rtstruct.dcm"]');
+  await said.filter({ hasText: "DICOM RTSTRUCT was not sent: " }).waitFor();
+  await picture(viewer, "archive_not_sent");
+  await page.click("[data-test=send-again]");
+  await said.filter({ hasText: "DICOM RTSTRUCT was not sent: " }).waitFor();
 });

@@ -76,7 +76,8 @@ def test_it_is_what_kontur_derive_makes_of_the_same_drawing(tmp_path, image):
         lines = saved(tmp_path, server, "contours.json", made[0])
         derive(tmp_path, rules[0], "-i", "ctv.json", "--image", image, "--output", "one.json")
         assert outlines(tmp_path / "one.json") == outlines(lines)
-        assert json.loads(lines.read_text())["attributes"]["description"] == f"derived: {rules[0]}"
+        said = json.loads(lines.read_text())
+        assert (said["description"], said["provenance"]["rule"]) == (f"derived: {rules[0]}", rules[0])
         status, _, body = server.request("GET", "/api/statistics")
         assert status == 200, body
         rows = {row["name"]: row for row in json.loads(body)["structures"]}

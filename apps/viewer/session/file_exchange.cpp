@@ -236,7 +236,8 @@ void write_one(SessionState& s, const State& now, const ExportChoice& choice, co
         throw Error(ErrorKind::unsupported, fmt::format("{} holds contours of one frame, and {} was drawn in several; write "
                                                         "contours.json",
                                                         name, chosen.name));
-    if (is_one_of(name, kContours)) return write_contours(path, set, provenance_of_drawing(set, image));
+    if (is_one_of(name, kContours))
+        return write_contours(path, set, chosen.rule ? provenance_of(*made()) : provenance_of_drawing(set, image));
     if (name != "picture.png") throw Error(ErrorKind::unsupported, "there is no export of this name");
     const int time = picture_time(now, chosen.id, choice.time);
     write_picture(path, *made(), *s.image.times.image(time), time);

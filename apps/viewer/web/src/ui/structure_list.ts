@@ -272,15 +272,16 @@ export class StructureList {
     };
     return [
       ...(structure.mask ? [piece("span", { class: "flag", "data-test": "is-mask", title: "A mask: what is drawn into it corrects it" }, "mask")] : []),
-      ...(structure.rule === undefined ? [] : [ruleFlag(structure.rule)]),
-      buttonPiece({
-        label: String(project.contoursOf(id).length),
-        title: isOpen ? "Hide the list of contours" : "List the contours",
-        class: "count",
-        part: "count",
-        click: toggle,
-        more: { "aria-expanded": isOpen },
-      }),
+      structure.rule === undefined
+        ? buttonPiece({
+            label: String(project.contoursOf(id).length),
+            title: isOpen ? "Hide the list of contours" : "List the contours",
+            class: "count",
+            part: "count",
+            click: toggle,
+            more: { "aria-expanded": isOpen },
+          })
+        : ruleFlag(structure.rule),
       eye(visible, () => call("structure.set", { id, visible: !visible })),
       buttonPiece({
         icon: ICONS.remove,

@@ -28,7 +28,6 @@ async function type(line: string): Promise<void> {
 async function take(line: string): Promise<void> {
   await type(line);
   await viewer.page.locator("[data-test=rule-take]:enabled").waitFor();
-  await viewer.page.keyboard.press("Escape"); // what is offered
   await viewer.page.click("[data-test=rule-take]");
   await viewer.page.locator("[data-test=rule-line]").waitFor({ state: "hidden" });
 }

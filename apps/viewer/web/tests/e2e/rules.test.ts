@@ -111,7 +111,7 @@ test("errors point at their place, circles name their members, and what is used 
   await page.keyboard.press("Escape");
   await page.locator("[data-test=rule-line]").waitFor({ state: "hidden" });
 
-  await row("CTV").locator("[data-part=remove]").click();
+  await row("CTV").locator(".structure-row [data-part=remove]").click();
   await page.locator(".notice", { hasText: "CTV is used by the rule A = CTV + 2 mm; freeze or delete A first" }).waitFor();
   await page.locator("button.name", { hasText: "B" }).click();
   await page.keyboard.press("f");

@@ -49,7 +49,8 @@ struct Visit {
     json check(const std::string& line) { return done({{"call", "rule.check"}, {"line", line}}); }
     json surface(Id id) {
         session->wait_for_surfaces();
-        for (const json& one : json::parse(session->greeting())["surfaces"])
+        const json greeting = json::parse(session->greeting());
+        for (const json& one : greeting["surfaces"])
             if (one["structure"] == id) return one;
         return nullptr;
     }

@@ -32,7 +32,7 @@ struct FittedStructure {
     Segmentation made;
     bool shares_border = false;  ///< mask and mesh are not those that the function alone would give
     std::shared_ptr<const CorrectedMask>
-        corrected{};  ///< of a mask to be corrected, on its own grid; `made` has no function
+        corrected{};          ///< of a mask to be corrected, on its own grid; `made` has no function
     bool is_derived = false;  ///< a rule made it: `set` has its outlines on the slices, and `made` has no function
 };
 

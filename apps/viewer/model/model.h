@@ -94,7 +94,7 @@ struct Structure {
     StructureAttributes attributes{};            ///< what its file said of it, for exports; without the colour, see above
     std::optional<std::int64_t> label_value{};   ///< in label maps; unset: one that no other structure has
     std::optional<StructureMask> mask{};         ///< that the contours correct; unset: they are all there is of it
-    std::optional<std::string> rule{};           ///< that makes it of others, as "PTV = CTV + 5 mm"; it has nothing else then
+    std::optional<std::string> rule{};  ///< that makes it of others, as "PTV = CTV + 5 mm"; it has nothing else then
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };

@@ -37,8 +37,8 @@ public:
     using Listener = std::function<void(Surface)>;
     using StatusListener = std::function<void(std::optional<double> done)>;
 
-    /// All three are called from the thread, without a lock; they may call all of this but `wait`. The status is how much has
-    /// been done; nothing when nothing is being done any more.
+    /// All three are called from the thread, without a lock; they may call all of this but `wait`. The status is how much
+    /// has been done; nothing when nothing is being done any more.
     Derivations(Sources sources, Listener listener, StatusListener status);
     ~Derivations();
     Derivations(const Derivations&) = delete;
@@ -85,7 +85,7 @@ private:
     std::mutex bodies_mutex_;
     std::map<std::optional<double>, std::shared_ptr<const Mask>> bodies_;  ///< outlines of the body
     std::map<Id, std::vector<std::string>> made_of_;  ///< of the thread: rules and revisions of what was finished last
-    std::thread thread_;                                                  ///< last: it uses all above
+    std::thread thread_;                              ///< last: it uses all above
 };
 
 }  // namespace kontur::viewer

@@ -83,8 +83,8 @@ struct Surface {
     std::shared_ptr<const TriangleMesh> without_image;  ///< what the contours alone make; null where no image was used
     std::shared_ptr<const MaskEdit> corrected;          ///< of a mask to be corrected; null else
     std::optional<int> time;                            ///< of a structure that moves: it is its surface at this time alone
-    std::optional<ImplicitFunction> function;           ///< that the mesh is the surface of; none of masks and shared borders
-    bool is_derived = false;                            ///< a rule made it
+    std::optional<ImplicitFunction> function;  ///< that the mesh is the surface of; none of masks and shared borders
+    bool is_derived = false;                   ///< a rule made it
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.
@@ -100,7 +100,7 @@ struct SurfaceTask {
     std::optional<std::shared_ptr<const Image>> image{};
     /// Of a structure that moves: all of it. `set` then holds the contours of one time, and sections that stand for others.
     std::optional<MotionTask> motion{};
-    int time = 0;  ///< of the contours of a structure that moves
+    int time = 0;                    ///< of the contours of a structure that moves
     std::optional<RuleTask> rule{};  ///< that makes it; there are no contours then
 };
 

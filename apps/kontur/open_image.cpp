@@ -11,7 +11,6 @@
 #include "kontur/io/dicom/dicom_suv.h"
 #include "kontur/io/image.h"
 #include "kontur/io/image_frames.h"
-#include "kontur/io/images/frame_choice_error.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/phantom/volumes.h"
 #include "open_words.h"
@@ -85,51 +84,30 @@ void turn_into_suv(viewer::OpenedImage& opened, Messages& messages) {
     opened.identity.unit = kSuvUnit;
 }
 
-/// How many volumes there are, of which one was chosen: frames of a file, or volumes of a DICOM series.
-int count_times(const ImageInput& input, const viewer::OpenedImage& opened) {
-    if (opened.series && input.options.dicom.volume) {
-        const auto all = list_dicom_series(input.path);
-        return static_cast<int>(std::count_if(
-            all.begin(), all.end(), [&](const DicomSeries& one) { return one.series_uid == opened.series->series_uid; }));
-    }
-    if (!input.options.frame) return 1;
-    ReadImageOptions options = input.options;
-    options.frame.reset();
-    options.max_voxels = 1;  // no voxel is read: either a frame is missing, or there are too many voxels
+/// Of the image of which one frame or volume was opened.
+ImageFrames frames_of(const ImageInput& input) {
+    if (!input.options.frame && !input.options.dicom.volume) return {};
     try {
-        read_image(input.path, options);
-    } catch (const FrameChoiceError& error) {
-        return static_cast<int>(error.frames());
+        return read_image_frames(input.path, input.options);
     } catch (const Error&) {
-    }
-    return 1;
-}
-
-/// Seconds from one frame to the next, where the file says so.
-std::optional<double> step_s_of(const ImageInput& input) {
-    try {
-        return read_image_frames(input.path, input.options).step_s;
-    } catch (const Error&) {
-        return std::nullopt;  // of formats that do not say
+        return {};  // what was opened is all that there is
     }
 }
 
 /// The other volumes are read when somebody looks at them.
-viewer::Times times_of(const ImageInput& input, const viewer::OpenedImage& opened) {
-    const bool is_series = opened.series && input.options.dicom.volume;
-    const auto own = is_series ? *input.options.dicom.volume - 1 : input.options.frame.value_or(1) - 1;
-    const auto read = [input, is_series](int time) {
+viewer::Times times_of(const ImageInput& input) {
+    const ImageFrames frames = frames_of(input);
+    const auto own = frames.are_volumes ? *input.options.dicom.volume : input.options.frame.value_or(1);
+    const auto read = [input, frames](int time) {
         ImageInput other = input;
-        if (is_series) other.options.dicom.volume = time + 1;
-        else other.options.frame = time + 1;
+        other.options = of_frame(input.options, frames, time + 1);
         Messages messages;  // what there is to say was said of the one that was opened
         viewer::OpenedImage image;
         open_file(other, {}, image, messages);
         turn_into_suv(image, messages);
         return image.image;
     };
-    const int count = count_times(input, opened);
-    return {count, static_cast<int>(own), read, is_series || count < 2 ? std::nullopt : step_s_of(input)};
+    return {static_cast<int>(frames.count), static_cast<int>(own) - 1, read, frames.step_s, frames.cycle_frames()};
 }
 
 }  // namespace
@@ -142,7 +120,7 @@ viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Messag
         opened.reference.path = viewer::kExample;
     } else {
         open_file(input, work, opened, messages);
-        opened.times = times_of(input, opened);
+        opened.times = times_of(input);
     }
     work.report("look at values", 1);
     opened.reference.fingerprint = viewer::fingerprint(*opened.image);

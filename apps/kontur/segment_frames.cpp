@@ -23,6 +23,18 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& problem) { throw Error(ErrorKind::invalid_input, problem); }
 
+/// --cycle, else the file's, else the image's, which is noted.
+void choose_cycle(const SegmentCommand& command, ContourSet& contours, const ImageFrames& frames,
+                  std::vector<std::string>& notes) {
+    const bool in_seconds = contours.contours.front().time_s.has_value();
+    std::optional<double>& cycle = in_seconds ? contours.cycle_s : contours.cycle_frames;
+    if (command.cycle) cycle = command.cycle;
+    if (cycle || !frames.cycle_frames()) return;
+    cycle = in_seconds ? frames.cycle_s : frames.cycle_frames();
+    notes.push_back(fmt::format("the motion repeats after {:.4g} {}, as {} says; --cycle says otherwise", *cycle,
+                                in_seconds ? "s" : "frames", command.image.path.string()));
+}
+
 /// The image's frames in the contours' unit.
 std::vector<double> times_of(const SegmentCommand& command, const ContourSet& contours, const ImageFrames& frames) {
     const bool in_seconds = contours.contours.front().time_s.has_value();
@@ -82,9 +94,10 @@ bool is_moving(const SegmentCommand& command, const ContourSet& contours) {
 void check_moving_words(const SegmentCommand& command) {
     if (command.image.path.empty())
         refuse("contours were drawn at several moments; give a 4D --image, whose frames get masks");
-    if (command.image.options.frame)
-        refuse(fmt::format("--frame {} chooses one frame, and contours were drawn in several; leave it out",
-                           *command.image.options.frame));
+    if (const auto& frame = command.image.options.frame)
+        refuse(fmt::format("--frame {} chooses one frame, and contours were drawn in several; leave it out", *frame));
+    if (const auto& volume = command.image.options.dicom.volume)
+        refuse(fmt::format("--volume {} chooses one volume, and contours were drawn in several; leave it out", *volume));
     for (const auto& [option, path] :
          {std::pair("--mesh", &command.mesh), std::pair("--picture", &command.picture),
           std::pair("--rtstruct", &command.rtstruct), std::pair("--uncertainty", &command.uncertainty)})
@@ -101,14 +114,13 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     ContourSet& contours = read.contours;
     std::vector<std::string> notes = std::move(read.notes);
     if (!command.name.empty()) contours.name = command.name;
-    if (command.cycle) (contours.contours.front().time_s ? contours.cycle_s : contours.cycle_frames) = command.cycle;
     for (std::string& note : frame_of_reference_notes(read.frame_of_reference_uid, command.image))
         notes.push_back(std::move(note));
     ReadImageOptions image = command.image.options;
     image.on_note = [&](std::string_view note) { notes.emplace_back(note); };
     const ImageFrames frames = read_image_frames(command.image.path, image, work);
-    image.frame = 1;
-    const Grid grid = read_grid(command.image.path, image, work);
+    const Grid grid = read_grid(command.image.path, of_frame(image, frames, 1), work);
+    choose_cycle(command, contours, frames, notes);
     SegmentOptions options = command.options;
     options.drawn_on = grid;
     reading.lap("read");

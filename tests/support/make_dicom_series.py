@@ -319,7 +319,8 @@ def write_truth(folder, affine, truth):
     (folder / "truth.raw").write_bytes(truth.astype("<f8").tobytes())
 
 
-case, folder = sys.argv[1], Path(sys.argv[2])
-if case == "odd":  # slices of 63 pixels: bits of one do not fill its last byte
-    NY, NX = 9, 7
-make_enhanced(case, folder) if case.startswith("enhanced") else make(case, folder)
+if __name__ == "__main__":
+    case, folder = sys.argv[1], Path(sys.argv[2])
+    if case == "odd":  # slices of 63 pixels: bits of one do not fill its last byte
+        NY, NX = 9, 7
+    make_enhanced(case, folder) if case.startswith("enhanced") else make(case, folder)

@@ -9,6 +9,7 @@ namespace kontur::viewer {
 ProjectImage::ProjectImage(OpenedImage opened)
     : voxels(std::move(opened.image)),
       frame_step_s(opened.times.step_s),
+      cycle_frames(opened.times.cycle_frames),
       times(voxels, std::move(opened.times)),
       title(std::move(opened.title)),
       frame_of_reference_uid(std::move(opened.frame_of_reference_uid)),

@@ -19,6 +19,7 @@ struct ProjectImage {
 
     std::shared_ptr<const Image> voxels;
     std::optional<double> frame_step_s;  ///< from one time to the next, where the file says so
+    std::optional<double> cycle_frames;  ///< after which the motion repeats, likewise
     TimeAxis times;
     std::string title;
     std::string frame_of_reference_uid;

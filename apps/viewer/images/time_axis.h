@@ -18,6 +18,7 @@ struct Times {
     int own = 0;                                                   ///< the one that was opened
     std::function<std::shared_ptr<const Image>(int time)> read{};  ///< another one; may throw as `read_image`
     std::optional<double> step_s{};                                ///< from one to the next, where the file says so
+    std::optional<double> cycle_frames{};                          ///< after which the motion repeats, likewise
 };
 
 /// The volumes of an image in time, read when they are asked for. Those used last are kept. Safe for concurrent use.

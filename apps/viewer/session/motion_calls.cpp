@@ -20,7 +20,7 @@ json set_cycle(SessionState& s, const Members& m) {
     if (s.image.times.count() < 2)
         throw Error(ErrorKind::invalid_input, "the image has 1 frame; at least 2 are needed for a motion that repeats");
     const std::optional<double> before = s.project.state().cycle_frames;
-    const double after = m.flag("repeats") ? s.image.times.count() : 0;
+    const double after = m.flag("repeats") ? s.image.cycle_frames.value_or(s.image.times.count()) : 0;
     if (before == after) return json::object();
     Commit step{after > 0 ? "The motion repeats" : "The motion does not repeat", {}, {}};
     step.cycle = CycleChange{before, after};

@@ -47,7 +47,7 @@ SessionState::SessionState(OpenedImage opened, const std::filesystem::path& path
                         path.filename().string()));
     else if (project.image().path != opened.reference.path || project.image().choice != opened.reference.choice)
         project.save_image(opened.reference);
-    project.set_opened_time(image.times.own());
+    project.set_times(image.times.own(), image.cycle_frames);
     surfaces.motions().look_at(image.times.own());
     surfaces.use_image(image_for_fits(*this));
     surfaces.share_borders(project.state().borders);

@@ -61,8 +61,12 @@ public:
     /// Whether nothing had ever been in it when it was opened: made now, or at a start that failed before it was filled.
     bool is_new() const { return is_new_; }
 
-    /// Which volume in time of the image was opened, which contours without a time belong to.
-    void set_opened_time(int time) { state_.opened_time = time; }
+    /// What the opened image says, not stored: which volume in time it is, to which contours without a time belong, and its
+    /// cycle, which counts where nobody has said one.
+    void set_times(int opened, std::optional<double> cycle_frames) {
+        state_.opened_time = opened;
+        if (!state_.cycle_frames) state_.cycle_frames = cycle_frames;
+    }
 
     /// Whether nothing can be changed, because the file cannot be written.
     bool is_read_only() const { return is_read_only_; }

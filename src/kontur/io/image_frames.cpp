@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/image_frames.h"
 
-#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/text_header.h"
+#include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/images/frame_choice_error.h"
 #include "kontur/io/images/image_view.h"
 #include "kontur/io/images/nifti.h"
@@ -22,18 +23,52 @@ bool is_nifti_name(const fs::path& path) {
     return name.ends_with(".nii") || name.ends_with(".nii.gz");
 }
 
+/// Steps this much of their mean apart are one and the same: trigger times are rounded, and differ from slice to slice.
+constexpr double kSameStep = 0.1;
+
+/// From one volume to the next, where every step is about the same.
+std::optional<double> even_step_ms(const std::vector<DicomSeries>& volumes) {
+    if (volumes.size() < 2 || !volumes.front().trigger_time_ms || !volumes.back().trigger_time_ms) return std::nullopt;
+    const double mean =
+        (*volumes.back().trigger_time_ms - *volumes.front().trigger_time_ms) / static_cast<double>(volumes.size() - 1);
+    for (std::size_t n = 1; n < volumes.size(); ++n) {
+        if (!volumes[n].trigger_time_ms || !volumes[n - 1].trigger_time_ms) return std::nullopt;
+        const double step = *volumes[n].trigger_time_ms - *volumes[n - 1].trigger_time_ms;
+        if (!(std::abs(step - mean) <= kSameStep * mean)) return std::nullopt;
+    }
+    return mean;
+}
+
+ImageFrames frames_of(const std::vector<DicomSeries>& volumes) {
+    constexpr double kSecondsPerMs = 1e-3;
+    ImageFrames frames{.count = static_cast<std::int64_t>(volumes.size()), .are_volumes = true};
+    if (const auto step_ms = even_step_ms(volumes)) frames.step_s = kSecondsPerMs * *step_ms;
+    if (const auto beat_ms = volumes.front().beat_ms; beat_ms && *beat_ms > 0) frames.cycle_s = kSecondsPerMs * *beat_ms;
+    return frames;
+}
+
 }  // namespace
 
 ImageFrames read_image_frames(const fs::path& path, const ReadImageOptions& options, const Work& work) {
     if (is_nifti_name(path)) return read_nifti_frames(path);
+    if (looks_like_dicom(path) && !is_dicom_seg(path)) return frames_of(list_dicom_volumes(path, options.dicom, work));
     ReadImageOptions any = options;
     any.frame.reset();
+    any.max_voxels = 1;  // no voxel is read: either a frame is missing, or there are too many voxels
     try {
         read_image(path, any, work);
-        return {};
     } catch (const FrameChoiceError& error) {
-        return {error.frames(), {}};
+        return {.count = error.frames()};
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::too_large) throw;
     }
+    return {};
+}
+
+ReadImageOptions of_frame(ReadImageOptions options, const ImageFrames& frames, std::int64_t frame) {
+    if (frames.are_volumes) options.dicom.volume = static_cast<int>(frame);
+    else options.frame = frame;
+    return options;
 }
 
 void check_frames_name(const fs::path& path) {

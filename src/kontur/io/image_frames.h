@@ -10,10 +10,13 @@
 
 namespace kontur {
 
-/// How many frames an image has, and how far apart they are where the file says so (NIfTI). Another image than NIfTI is read
-/// for that where it has a single frame. Throws as read_image does.
+/// How many frames an image has, and what its file says of time: NIfTI and DICOM of hearts do. Of a DICOM series the volumes
+/// are its frames. Reads no voxels. Throws as read_image does.
 ImageFrames read_image_frames(const std::filesystem::path& path, const ReadImageOptions& options = {},
                               const Work& work = {});
+
+/// Options that read one of them, from 1.
+ReadImageOptions of_frame(ReadImageOptions options, const ImageFrames& frames, std::int64_t frame);
 
 /// Writes masks of one grid as the frames of one file: .nii or .nii.gz. Throws Error(unsupported) for another name, and
 /// Error(invalid_input) for no mask, masks of different grids and as write_mask does.

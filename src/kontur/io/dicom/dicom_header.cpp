@@ -100,6 +100,7 @@ DicomHeader read_frame_header(DicomHeader header, const dcmtk::Frame& frame, std
     header.temporal_position = integer_of_group(frame, DCM_FrameContentSequence, DCM_TemporalPositionIndex);
     header.acquisition_number = integer_of_group(frame, DCM_FrameContentSequence, DCM_FrameAcquisitionNumber);
     header.trigger_time_ms = decimal_of_group(frame, DCM_CardiacSynchronizationSequence, DCM_NominalCardiacTriggerDelayTime);
+    header.beat_ms = decimal_of_group(frame, DCM_CardiacSynchronizationSequence, DCM_RRIntervalTimeNominal);
     header.echo_time_ms = decimal_of_group(frame, DCM_MREchoSequence, DCM_EffectiveEchoTime);
     header.b_value = decimal_of_group(frame, DCM_MRDiffusionSequence, DCM_DiffusionBValue);
     return header;
@@ -149,6 +150,7 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmFileFormat& 
     header.acquisition_number = integer_if_any(dataset, DCM_AcquisitionNumber);
     header.echo_number = integer_if_any(dataset, DCM_EchoNumbers);
     header.trigger_time_ms = dcmtk::first_decimal(dataset, DCM_TriggerTime);
+    header.beat_ms = dcmtk::first_decimal(dataset, DCM_NominalInterval);
     header.instance_number = integer_if_any(dataset, DCM_InstanceNumber);
     if (dataset.tagExists(DCM_FloatPixelData) || dataset.tagExists(DCM_DoubleFloatPixelData))
         throw Error(ErrorKind::unsupported,

@@ -65,6 +65,7 @@ struct DicomHeader {
     std::optional<std::int64_t> acquisition_number;
     std::optional<std::int64_t> echo_number;
     std::optional<double> trigger_time_ms;
+    std::optional<double> beat_ms;  ///< from one heartbeat to the next, as the images are sorted; tells nothing apart
     std::optional<std::int64_t> instance_number;
 };
 

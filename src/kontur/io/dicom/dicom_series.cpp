@@ -29,6 +29,16 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kVolumesListed = 20;
 
+/// Where every slice has one.
+std::optional<double> mean_of(const DicomStack& stack, std::optional<double> DicomHeader::*value) {
+    double sum = 0;
+    for (const DicomHeader& slice : stack.slices) {
+        if (!(slice.*value) || !std::isfinite(*(slice.*value))) return std::nullopt;
+        sum += *(slice.*value);
+    }
+    return sum / static_cast<double>(stack.slices.size());
+}
+
 DicomSeries describe(const DicomStack& stack) {
     const DicomHeader& first = stack.slices.front();
     DicomSeries series;
@@ -42,6 +52,8 @@ DicomSeries describe(const DicomStack& stack) {
     if (agree) series.frame_of_reference_uid = first.frame_of_reference_uid;
     series.columns = first.columns;
     series.rows = first.rows;
+    series.trigger_time_ms = mean_of(stack, &DicomHeader::trigger_time_ms);
+    series.beat_ms = mean_of(stack, &DicomHeader::beat_ms);
     for (const DicomHeader& slice : stack.slices) {
         series.files.push_back(slice.path);
         series.frames.push_back(slice.frame.value_or(1));
@@ -89,7 +101,9 @@ void keep_own_of_file(std::vector<DicomStack>& stacks, const fs::path& file, con
     else std::erase_if(stacks, [&](const DicomStack& stack) { return series_of(stack) != series_of(own.front()); });
 }
 
-DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& options, const std::optional<fs::path>& file) {
+/// All volumes of one series, or the one that the file stands for.
+std::vector<DicomStack> of_one_series(std::vector<DicomStack> stacks, const DicomSeriesOptions& options,
+                                      const std::optional<fs::path>& file) {
     if (file) keep_own_of_file(stacks, *file, options);
     if (options.series_uid)
         keep(stacks, "series " + *options.series_uid,
@@ -97,6 +111,10 @@ DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& opti
     if (series_of(stacks.front()) != series_of(stacks.back()))
         throw Error(ErrorKind::invalid_input,
                     "the folder holds several series; choose one with the option series_uid: " + listed(stacks));
+    return stacks;
+}
+
+DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& options) {
     if (stacks.size() > 1 && !options.volume)
         throw Error(ErrorKind::invalid_input,
                     "the series holds several volumes; choose one with the option volume: " + listed(stacks));
@@ -194,7 +212,7 @@ ChosenStack locate_in(DicomContent content, const DicomSeriesOptions& options, c
     const std::optional<std::string> series = named_series(content, options, file);
     if (series) refuse_damage_of(*series, content);
     ChosenStack result;
-    result.stack = choose(content.stacks, options, file);
+    result.stack = choose(of_one_series(content.stacks, options, file), options);
     const std::string chosen = series_of(result.stack);
     refuse_damage_of(chosen, content);
     refuse_two_patients(chosen, content.stacks);
@@ -212,7 +230,9 @@ ChosenStack locate_in(DicomContent content, const DicomSeriesOptions& options, c
     return result;
 }
 
-ChosenStack locate(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
+/// `find` on what is in the folder; its errors name the path.
+template <class Find>
+auto find_in(const fs::path& path, const DicomSeriesOptions& options, const Work& work, const Find& find) {
     check_at_least("the limit of voxels", options.max_voxels, 1);
     std::error_code ignored;
     const bool is_folder = fs::is_directory(path, ignored);
@@ -223,13 +243,19 @@ ChosenStack locate(const fs::path& path, const DicomSeriesOptions& options, cons
     else if (!options.series_uid) set_doses_aside(content);
     if (content.stacks.empty()) refuse_empty(path, content);
     try {
-        return locate_in(std::move(content), options, file);
+        return find(std::move(content), file);
     } catch (const UnevenSlicesError& error) {
         throw UnevenSlicesError(error.with_context(path.string()).what());
     } catch (const Error& error) {
         if (std::string_view(error.what()).starts_with(path.string())) throw;
         throw error.with_context(path.string());
     }
+}
+
+ChosenStack locate(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
+    return find_in(path, options, work, [&](DicomContent content, const std::optional<fs::path>& file) {
+        return locate_in(std::move(content), options, file);
+    });
 }
 
 /// The samples at places between slices of `size` samples.
@@ -269,6 +295,16 @@ std::vector<DicomSeries> list_dicom_series(const fs::path& folder, const Work& w
     std::vector<DicomSeries> result;
     for (const DicomStack& stack : content.stacks) result.push_back(describe(stack));
     return result;
+}
+
+std::vector<DicomSeries> list_dicom_volumes(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
+    DicomSeriesOptions any_volume = options;
+    any_volume.volume = 1;
+    return find_in(path, options, work, [&](const DicomContent& content, const std::optional<fs::path>& file) {
+        std::vector<DicomSeries> volumes;
+        for (const DicomStack& stack : of_one_series(content.stacks, any_volume, file)) volumes.push_back(describe(stack));
+        return volumes;
+    });
 }
 
 Image read_dicom_slice(const fs::path& file, std::int64_t frame) {

@@ -26,6 +26,8 @@ struct DicomSeries {
     std::vector<std::int64_t> frames;  ///< which frame of its file each slice is, from 1
     std::int64_t columns = 0;
     std::int64_t rows = 0;
+    /// Of a heart: ms after the beat began, and from one beat to the next (TriggerTime, NominalInterval); the slices' means.
+    std::optional<double> trigger_time_ms, beat_ms;
 };
 
 struct DicomSeriesOptions {
@@ -62,6 +64,11 @@ bool looks_like_dicom(const std::filesystem::path& path);
 /// The volumes in a folder, or, where it holds no images itself, in the folders below it, ordered by series UID; dose grids
 /// are among them. Reads headers only. Damaged images are left out; their error is thrown where there are no others.
 std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder, const Work& work = {});
+
+/// The volumes of one series, in their order: that of the file or the options, of which the volume does not count, or the
+/// only one. Headers only. Throws as `read_dicom_series`.
+std::vector<DicomSeries> list_dicom_volumes(const std::filesystem::path& path, const DicomSeriesOptions& options = {},
+                                            const Work& work = {});
 
 /// One slice alone, as an image one voxel deep: for previews. Where it names no thickness it is 1 mm thick. `frame` counts
 /// from 1. Throws as `read_dicom_series`, and

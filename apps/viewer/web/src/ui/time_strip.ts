@@ -132,7 +132,7 @@ export class TimeStrip {
         }),
       ];
     const repeats = cycleFrames > 0;
-    const text = repeats ? `Repeats after ${cycleFrames} frames` : "Does not repeat";
+    const text = repeats ? `Repeats after ${Number(cycleFrames.toFixed(1))} frames` : "Does not repeat";
     return [buttonPiece({ label: text, title: repeats ? "Let it not repeat" : "Let it repeat", class: "choice", test: "cycle", click: () => set(!repeats) })];
   }
 

@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 configure = cmake --preset release $(if $(wildcard build/release/CMakeCache.txt),,-DKONTUR_BUILD_TESTS=OFF) >/dev/null
 
 .DEFAULT_GOAL := help
-.PHONY: fuzzer help setup build demo test asan tsan coverage torture-short torture tidy bench accuracy wheel docs format install clean
+.PHONY: wasm fuzzer help setup build demo test asan tsan coverage torture-short torture tidy bench accuracy wheel docs format install clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -82,6 +82,11 @@ accuracy: build ## organs of DATA, a folder of scans, by kontur and its peers, i
 wheel: ## build a Python wheel that needs the C library and NumPy alone into build/wheels (installs dpkg-dev and patchelf, builds DCMTK once)
 	@tools/setup build python dpkg-dev patchelf
 	@packaging/build_wheel
+
+wasm: ## build the npm package kontur-wasm into build/kontur-wasm (installs clang, lld and libc++ for WebAssembly)
+	@tools/setup build wasm
+	@$(configure)
+	@wasm/build
 
 docs: ## write the C++ reference to build/release/reference/html (installs doxygen)
 	@tools/setup build doxygen

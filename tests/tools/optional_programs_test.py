@@ -22,7 +22,8 @@ NAMED_BY_VARIABLES = {
     ("setup_test.py", "name"): [],  # every Debian has them
     ("readers_test.py", "program"): [],  # it asks for each output alone
 }
-PACKAGES = {"dpkg-shlibdeps": "dpkg-dev", "mypy": "mypy", "clang++-14": "clang-14", "clang++-19": "clang-19", "qemu-aarch64": "qemu-user",
+PACKAGES = {"dpkg-shlibdeps": "dpkg-dev", "mypy": "mypy", "clang++-14": "clang-14", "clang++-19": "clang-19",
+            "wasm-ld-19": "lld-19", "llvm-ar-19": "llvm-19", "qemu-aarch64": "qemu-user",
             "aarch64-linux-gnu-g++": "g++-aarch64-linux-gnu"}  # others are called like the package, or python3-NAME
 
 

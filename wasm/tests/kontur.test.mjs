@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// kontur-wasm in Node, beside the native library: node --test. KONTUR_WASM is the built package, KONTUR_NATIVE a program that
+// writes CASE.json and CASE.nii of cases of the phantom (tests/portable/program.cpp).
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { Worker } from "node:worker_threads";
+import { brotliCompressSync } from "node:zlib";
+
+const PACKAGE = process.env.KONTUR_WASM;
+const { Kontur, KonturError, KonturWorker } = await import(pathToFileURL(join(PACKAGE, "index.js")));
+const bytes = readFileSync(join(PACKAGE, "kontur.wasm"));
+const HEADER_BYTES = 352;
+const CASES = ["liver_parallel14", "kidney_radial6"];
+
+const folder = mkdtempSync(join(tmpdir(), "kontur-"));
+let module;
+let kontur;
+
+before(async () => {
+  execFileSync(process.env.KONTUR_NATIVE, [folder, ...CASES]);
+  module = await WebAssembly.compile(bytes);
+  kontur = await Kontur.load(module);
+});
+after(() => rmSync(folder, { recursive: true }));
+
+const native = (name) => readFileSync(join(folder, `${name}.nii`)).subarray(HEADER_BYTES);
+const contours = (name) => JSON.parse(readFileSync(join(folder, `${name}.json`), "utf8"));
+const request = (name) => ({ contours: contours(name), grid: kontur.phantom(name).grid });
+
+describe("masks", () => {
+  for (const name of CASES)
+    test(`${name} is the native library's but for voxels on the surface`, () => {
+      const made = kontur.segment(request(name));
+      const there = native(name);
+      assert.equal(made.mask.length, there.length);
+      const inside = there.reduce((sum, value) => sum + value, 0);
+      let different = 0;
+      for (let n = 0; n < there.length; n++) different += made.mask[n] === there[n] ? 0 : 1;
+      console.log(`${name}: ${different} of ${inside} voxels differ`);
+      assert.ok(inside > 1000 && different <= 1e-4 * inside, `${different} of ${inside}`);
+      assert.equal(
+        made.report.mask.voxels,
+        made.mask.reduce((sum, value) => sum + value, 0),
+      );
+      made.free();
+    });
+
+  test("repeat themselves byte for byte", () => {
+    const [one, other] = [1, 2].map(() => kontur.segment(request("kidney_radial6")));
+    assert.deepEqual(one.mask, other.mask);
+    assert.deepEqual(one.mesh, other.mesh);
+  });
+});
+
+test("the mesh, its outlines and the function agree", () => {
+  const made = kontur.segment(request("kidney_radial6"));
+  const { points, normals, triangles } = made.mesh;
+  assert.ok(triangles.length > 1000 && points.length === normals.length && triangles.every((point) => point < points.length / 3));
+  const values = made.values(Float64Array.from(points.subarray(0, 300)));
+  assert.ok(
+    values.every((value) => Math.abs(value) < 0.5),
+    `${values}`,
+  );
+  const [x, y, z] = [0, 1, 2].map((axis) => points.filter((_, n) => n % 3 === axis).reduce((sum, v) => sum + v, 0) / (points.length / 3));
+  const lines = made.outline({ origin: [x, y, z], normal: [0, 0, 1] });
+  assert.ok(lines.length > 0 && lines.every((line) => line.closed && line.points.every((v, n) => n % 3 !== 2 || Math.abs(v - z) < 1e-3)));
+});
+
+test("an editor gives a preview, and finishes as the native library does", () => {
+  const editor = kontur.editor();
+  assert.ok(editor.preview(contours("kidney_radial6")).mesh.triangles.length > 300);
+  const finished = editor.finish(contours("kidney_radial6"));
+  const made = kontur.segment(request("kidney_radial6"));
+  const places = Float64Array.from(made.mesh.points.subarray(0, 30));
+  assert.deepEqual(finished.values(places), made.values(places));
+  editor.free();
+});
+
+describe("what cannot be is refused in one sentence", () => {
+  const refused = (asked, kind, words) =>
+    assert.throws(
+      () => kontur.segment(asked),
+      (error) => error instanceof KonturError && error.kind === kind && words.test(error.message),
+    );
+
+  test("no contours", () => refused({}, "invalid_input", /^the request has no contours$/));
+  test("a point that is none", () => {
+    const broken = request("kidney_radial6");
+    broken.contours.planes[0].contours[0].points[3] = [1, "two"];
+    refused(broken, "corrupt_file", /plane 1.*contour 1.*point 4/);
+  });
+  test("an option that is none", () =>
+    refused({ ...request("kidney_radial6"), options: { kernel: "cubic" } }, "invalid_input", /kernel is "cubic"; it takes screened, /));
+  test("a grid that is none", () => refused({ ...request("kidney_radial6"), grid: { size: [0, 1, 1] } }, "invalid_input", /grid/));
+  test("and the next call works", () => assert.ok(kontur.segment(request("kidney_radial6")).mask.includes(1)));
+});
+
+describe("in a worker", () => {
+  const start = () => new Worker(new URL(pathToFileURL(join(PACKAGE, "worker.js"))));
+
+  test("a call gives the same mask and tells how far it is", async () => {
+    const worker = new KonturWorker(module, start);
+    const stages = new Set();
+    const made = await worker.segment(request("kidney_radial6"), (stage) => void stages.add(stage));
+    assert.deepEqual(made.mask, kontur.segment(request("kidney_radial6")).mask);
+    assert.ok(stages.size > 1);
+    assert.ok((await worker.preview(contours("kidney_radial6"))).mesh.points.length > 0);
+    await assert.rejects(worker.segment({}), { kind: "invalid_input" });
+    worker.cancel();
+  });
+
+  test("a cancelled call ends at once, and the next one starts anew", async () => {
+    const worker = new KonturWorker(module, start);
+    const call = worker.segment(request("liver_parallel14"), () => worker.cancel());
+    await assert.rejects(call, { kind: "cancelled" });
+    assert.ok((await worker.segment(request("kidney_radial6"))).mask.includes(1));
+    worker.cancel();
+  });
+});
+
+test("it is small, and so is its memory", () => {
+  const MB = 1e6;
+  const packed = brotliCompressSync(bytes).length;
+  console.log(`${(packed / MB).toFixed(2)} MB packed, ${(kontur.memoryBytes / MB).toFixed(0)} MB of memory`);
+  assert.ok(packed <= 1.5 * MB && kontur.memoryBytes <= 200 * MB);
+});

@@ -15,6 +15,7 @@ FILES = ["bounds/bounds", "correct/change", "derive/rule_words", "drawing/tidy",
          "io/bytes/json_file", "io/bytes/text_header", "io/contours/contour_json", "io/contours/markups", "io/images/nifti", "io/meshes/mesh",
          "labels/partition", "live_editor", "measure/compare", "moving/moments", "phantom/phantom", "sampling/sample_surface", "segment",
          "sureness/surface_uncertainty", "view/livewire"]
+FOR_WEBASSEMBLY = {"machine_memory_of_wasm.cpp", "workers_without_threads.cpp"}
 NEED_OPENBLAS_OR_OPENSSL = {"blas.cpp", "solve_cholesky.cpp", "solve_dense.cpp", "sha256.cpp"}
 
 
@@ -43,7 +44,7 @@ def headers(folder):
 def sources():
     library = ROOT / "src/kontur"
     chosen = {path for room in ROOMS for path in (library / room).glob("*.cpp")} | {library / f"{name}.cpp" for name in FILES}
-    return sorted(path for path in chosen if path.name not in NEED_OPENBLAS_OR_OPENSSL)
+    return sorted(path for path in chosen if path.name not in NEED_OPENBLAS_OR_OPENSSL | FOR_WEBASSEMBLY)
 
 
 def precompiled(compiler, folder):

@@ -38,18 +38,9 @@ def cine_fixture(tmp_path):
 
 @pytest.fixture(name="beats")
 def beats_fixture(tmp_path):
-    """The same as a series of a gated scan: a beat of 320 ms; trigger times differ from slice to slice and are rounded."""
+    """The same as a series of a gated scan."""
     folder = tmp_path / "beats"
-    folder.mkdir()
-    for n in range(FRAMES):
-        for k in range(25):
-            d = dicom.new_slice("beats", f"{n} {k}")
-            d.Rows = d.Columns = 25
-            d.PixelSpacing, d.SliceThickness = [SPACING, SPACING], SPACING
-            dicom.place(d, (1, 0, 0, 0, 1, 0), (-HALF, -HALF, -HALF + SPACING * k))
-            d.TriggerTime, d.NominalInterval = f"{15 + 40 * n + k % 2}", "320"
-            dicom.set_pixels(d, numpy.zeros((25, 25)))
-            d.save_as(folder / f"{(7 * n + k) % 8}{n}{k}.dcm", write_like_original=False)
+    dicom.write_cine(folder, FRAMES, 25, SPACING, -HALF)
     return folder
 
 

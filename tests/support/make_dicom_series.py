@@ -248,6 +248,21 @@ def make(case, folder):
     write_truth(folder, affine, truth)
 
 
+def write_cine(folder, frames, voxels, spacing, origin):
+    """An empty series of a gated scan, cubes of so many voxels: 40 ms apart, a beat as long as all frames. Trigger times differ from
+    slice to slice and are rounded."""
+    folder.mkdir()
+    for n in range(frames):
+        for k in range(voxels):
+            d = new_slice("cine", f"{n} {k}")
+            d.Rows = d.Columns = voxels
+            d.PixelSpacing, d.SliceThickness = [spacing, spacing], spacing
+            place(d, (1, 0, 0, 0, 1, 0), (origin, origin, origin + spacing * k))
+            d.TriggerTime, d.NominalInterval = f"{15 + 40 * n + k % 2}", f"{40 * frames}"
+            set_pixels(d, np.full((voxels, voxels), n))
+            d.save_as(folder / f"{(7 * n + k) % 8}{n}{k}.dcm", write_like_original=False)
+
+
 # Parametric maps (PS3.3 C.7.6.24 and C.7.6.25): element, type, bits.
 FLOATING = {"enhanced_float": ("FloatPixelData", "<f4", 32), "enhanced_double": ("DoubleFloatPixelData", "<f8", 64)}
 

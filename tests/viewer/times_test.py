@@ -10,6 +10,8 @@ import numpy
 from support import Page, running
 
 SUPPORT = pathlib.Path(__file__).parents[1] / "support"
+sys.path.append(str(SUPPORT))
+import make_dicom_series as dicom
 
 
 def write_beating(path, frames=4):
@@ -85,3 +87,14 @@ def test_volumes_of_a_series_are_its_times(tmp_path):
     (own, first, second), (own_of_second, *others) = values
     assert own == first and own_of_second == second and others == [first, second]
     assert first != second
+
+
+def test_the_tags_of_a_gated_series_tell_the_cycle_until_somebody_says_otherwise(tmp_path):
+    dicom.write_cine(tmp_path / "cine", 8, 9, 2.0, -8.0)
+    with running(tmp_path, tmp_path / "cine", "--volume", "3", "--project", tmp_path / "a.kontur") as server:
+        page = Page(server)
+        assert (page.session["image"]["times"], page.session["image"]["time"]) == (8, 2)
+        assert page.session["cycle_frames"] == 8
+        page.do("cycle.set", repeats=False)
+    with running(tmp_path, tmp_path / "cine", "--volume", "3", "--project", tmp_path / "a.kontur") as server:
+        assert Page(server).session["cycle_frames"] == 0

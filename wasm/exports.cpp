@@ -47,10 +47,6 @@ struct Made {
     ImplicitFunction function{};
 };
 
-struct Editing {
-    Editor editor;
-};
-
 void note_error(std::string_view kind, std::string_view message) {
     the_error = json{{"kind", kind}, {"message", message}}.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -156,18 +152,16 @@ KONTUR_EXPORT(kontur_segment)
     return or_error([&] { return segmented({request, length}, samples, {type, type_length}); });
 }
 
-KONTUR_EXPORT(kontur_new_editor)()->Editing* {
-    return or_error([] { return std::make_unique<Editing>().release(); });
+KONTUR_EXPORT(kontur_new_editor)()->Editor* {
+    return or_error([] { return std::make_unique<Editor>().release(); });
 }
-KONTUR_EXPORT(kontur_drop_editor)(Editing* editing)->void { delete editing; }
+KONTUR_EXPORT(kontur_drop_editor)(Editor* editor)->void { delete editor; }
 
-KONTUR_EXPORT(kontur_preview)(Editing* editing, const char* contours, std::size_t length)->Made* {
-    return or_error([&] { return edited(editing->editor.preview(parse_contour_json({contours, length}), {.threads = 1})); });
+KONTUR_EXPORT(kontur_preview)(Editor* editor, const char* contours, std::size_t length)->Made* {
+    return or_error([&] { return edited(editor->preview(parse_contour_json({contours, length}), {.threads = 1})); });
 }
-KONTUR_EXPORT(kontur_finish)(Editing* editing, const char* contours, std::size_t length)->Made* {
-    return or_error([&] {
-        return edited(editing->editor.finish(parse_contour_json({contours, length}), told_work(StopSource{})));
-    });
+KONTUR_EXPORT(kontur_finish)(Editor* editor, const char* contours, std::size_t length)->Made* {
+    return or_error([&] { return edited(editor->finish(parse_contour_json({contours, length}), told_work(StopSource{}))); });
 }
 
 /// Contours and grid of a case of the phantom.

@@ -2,6 +2,7 @@
 #include "viewer/files/derived_fits.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "kontur/derive/body_outline.h"
@@ -17,13 +18,17 @@ const FittedStructure& the_one(const std::vector<FittedStructure>& fitted, Id st
     return *std::ranges::find(fitted, structure, [](const FittedStructure& one) { return one.structure.id; });
 }
 
-/// Masks with their functions where these say the same.
+/// Where it says the same as the mask.
+std::optional<ImplicitFunction> function_of(const FittedStructure& one) {
+    if (one.shares_border || one.corrected) return std::nullopt;
+    return one.made.function;
+}
+
 std::vector<NamedStructure> named(const RuleMembers& members, const std::vector<FittedStructure>& fitted) {
     std::vector<NamedStructure> sources;
     for (const auto& [name, id] : members.drawn) {
         const FittedStructure& one = the_one(fitted, id);
-        sources.push_back({name, one.made.mask, {}});
-        if (!one.shares_border && !one.corrected) sources.back().function = one.made.function;
+        sources.push_back({name, one.made.mask, function_of(one)});
     }
     return sources;
 }
@@ -31,10 +36,10 @@ std::vector<NamedStructure> named(const RuleMembers& members, const std::vector<
 std::vector<TriangleMesh> meshes(const RuleMembers& members, const std::vector<FittedStructure>& fitted, const Image& image,
                                  const Work& work) {
     std::vector<ShownStructure> sources;
-    for (const NamedStructure& source : named(members, fitted))
-        sources.push_back({source.name,
-                           std::make_shared<const TriangleMesh>(*the_one(fitted, members.drawn.at(source.name)).made.mesh),
-                           source.function});
+    for (const auto& [name, id] : members.drawn) {
+        const FittedStructure& one = the_one(fitted, id);
+        sources.push_back({name, std::make_shared<const TriangleMesh>(*one.made.mesh), function_of(one)});
+    }
     DerivedSurfacesOptions options{image.grid};
     options.body = [&](const std::optional<double>& threshold) {
         return std::make_shared<const Mask>(body_outline(image, threshold, work.untold()));
@@ -70,12 +75,7 @@ RuleMembers all_members(const State& state) {
         const RuleMembers members = members_of(state, id);
         // Of something that is not drawn yet nothing can be made, as of a structure without contours.
         if (!std::ranges::all_of(members.drawn, [&](const auto& item) { return has_content(state, item.second); })) continue;
-        for (std::size_t n = 0; n < members.made.size(); ++n)
-            if (std::ranges::count(all.made, members.made[n]) == 0) {
-                all.made.push_back(members.made[n]);
-                all.rules.push_back(members.rules[n]);
-            }
-        all.drawn.insert(members.drawn.begin(), members.drawn.end());
+        all.add(members);
     }
     return all;
 }

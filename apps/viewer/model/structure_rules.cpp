@@ -45,6 +45,15 @@ void check_frame(const State& state, const Structure& structure, const std::stri
 
 }  // namespace
 
+void RuleMembers::add(const RuleMembers& others) {
+    for (std::size_t n = 0; n < others.made.size(); ++n)
+        if (std::ranges::count(made, others.made[n]) == 0) {
+            made.push_back(others.made[n]);
+            rules.push_back(others.rules[n]);
+        }
+    drawn.insert(others.drawn.begin(), others.drawn.end());
+}
+
 RuleMembers members_of(const State& state, Id structure) {
     const Structure& first = structure_of(state, structure);
     RuleMembers members{{structure}, {*first.rule}};

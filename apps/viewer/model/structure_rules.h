@@ -16,6 +16,9 @@ struct RuleMembers {
     std::vector<Id> made;               ///< it, and what its rule needs and other rules make
     std::vector<std::string> rules;     ///< that make these, in the same order
     std::map<std::string, Id> drawn{};  ///< what is needed besides, by name
+
+    /// What takes part in making others, too, each once.
+    void add(const RuleMembers& others);
 };
 
 /// Throws Error(invalid_input) for a name that no structure has or several have, and Error(unsupported) for structures that

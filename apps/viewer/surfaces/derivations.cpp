@@ -84,15 +84,7 @@ private:
 /// All that takes part in making any of these.
 RuleMembers together(const std::map<Id, RuleTask>& tasks) {
     RuleMembers all;
-    for (const auto& [id, task] : tasks) {
-        const RuleMembers& members = task.members;
-        for (std::size_t n = 0; n < members.made.size(); ++n)
-            if (std::ranges::count(all.made, members.made[n]) == 0) {
-                all.made.push_back(members.made[n]);
-                all.rules.push_back(members.rules[n]);
-            }
-        all.drawn.insert(members.drawn.begin(), members.drawn.end());
-    }
+    for (const auto& [id, task] : tasks) all.add(task.members);
     return all;
 }
 

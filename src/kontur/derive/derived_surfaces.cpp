@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/derive/derived_surfaces.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 #include <utility>
 

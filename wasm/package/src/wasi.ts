@@ -27,7 +27,7 @@ export function wasi(memory: () => WebAssembly.Memory): WebAssembly.ModuleImport
       return SUCCESS;
     },
     environ_get: () => SUCCESS,
-    fd_write: (stream, pieces, count, written) => {
+    fd_write: (stream, pieces, count, answer) => {
       if (stream !== 1 && stream !== 2) return BAD_FILE;
       let bytes = 0;
       for (let n = 0; n < count!; n++) {
@@ -36,7 +36,7 @@ export function wasi(memory: () => WebAssembly.Memory): WebAssembly.ModuleImport
         write(stream, new TextDecoder().decode(new Uint8Array(memory().buffer, place, length).slice()));
         bytes += length;
       }
-      view().setUint32(written!, bytes, true);
+      view().setUint32(answer!, bytes, true);
       return SUCCESS;
     },
     proc_exit: (code) => {

@@ -20,6 +20,7 @@ struct Tube {
     int rings;
     double dice;  ///< at least, between the first and the last ring
     std::function<Vec3(double)> at;
+    double tilt = 0;  ///< of the first ring and, the other way, of the last one: radians about y
 };
 
 Vec3 direction(const Tube& tube, double t) { return normalized(tube.at(t + 1e-4) - tube.at(t - 1e-4)); }
@@ -28,7 +29,10 @@ ContourSet drawn(const Tube& tube) {
     ContourSet set;
     for (int n = 0; n < tube.rings; ++n) {
         const double t = n / (tube.rings - 1.0);
-        set.contours.push_back(test::circle(make_plane(tube.at(t), direction(tube, t)), tube.radius, 32));
+        const double tilt = n == 0 ? tube.tilt : n == tube.rings - 1 ? -tube.tilt : 0;
+        const Vec3 along = direction(tube, t);
+        const Vec3 normal = std::cos(tilt) * along + std::sin(tilt) * cross(along, {0, 1, 0});
+        set.contours.push_back(test::circle(make_plane(tube.at(t), normal), tube.radius, 32));
     }
     return set;
 }
@@ -64,6 +68,8 @@ double dice_between_rings(const Tube& tube) {
     return 2.0 * both / (truth + found);
 }
 
+Vec3 half_turn(double t) { return {60 * std::cos(M_PI * t), 0, 60 * std::sin(M_PI * t)}; }
+
 class TubeByRings : public testing::TestWithParam<Tube> {};
 
 TEST_P(TubeByRings, GoesOnBetweenThem) { EXPECT_GT(dice_between_rings(GetParam()), GetParam().dice); }
@@ -82,6 +88,9 @@ INSTANTIATE_TEST_SUITE_P(
                          [](double t) {
                              return Vec3{40 * std::cos(M_PI * t), 0, 40 * std::sin(M_PI * t)};
                          }},
+                    // Each foot's plane says that nothing is there close beside the other foot.
+                    Tube{"ArchOfNearlyOnePlane", 8, 6, 0.95, half_turn, 1e-3},
+                    Tube{"ArchOfPlanesALittleTilted", 8, 6, 0.94, half_turn, 1e-2},
                     Tube{"S", 5, 8, 0.95,
                          [](double t) {
                              return Vec3{20 * std::sin(6 * t), 0, 180 * t};
@@ -91,6 +100,22 @@ INSTANTIATE_TEST_SUITE_P(
                              return Vec3{25 * std::cos(4 * M_PI * t), 25 * std::sin(4 * M_PI * t), 60 * t};
                          }}),
     [](const auto& info) { return info.param.name; });
+
+/// Four rings of 8 mm, 37 mm apart, and planes so far beyond both ends that show nothing.
+class TubeWithEmptyPlanes : public testing::TestWithParam<double> {};
+
+TEST_P(TubeWithEmptyPlanes, EndsThereWithoutAClub) {
+    constexpr double kRadius = 8, kGap = 37;
+    ContourSet set;
+    for (int n = 0; n < 4; ++n) set.contours.push_back(test::circle(make_plane({0, 0, n * kGap}, {0, 0, 1}), kRadius, 48));
+    set.empty_planes = {make_plane({0, 0, -GetParam()}, {0, 0, 1}), make_plane({0, 0, 3 * kGap + GetParam()}, {0, 0, 1})};
+    const Segmentation made = segment(set, grid_around(bounding_box(set), {1, 1, 1}, 20));
+    const double drawn_ml = M_PI * kRadius * kRadius * 3 * kGap / 1000;
+    EXPECT_GT(made.report.mask_volume_ml, 0.97 * drawn_ml);
+    EXPECT_LT(made.report.mask_volume_ml, 1.12 * drawn_ml) << "without the walls' bounds 1.4 to 1.8 times";
+}
+
+INSTANTIATE_TEST_SUITE_P(Distances, TubeWithEmptyPlanes, testing::Values(0.7, 1, 2, 4, 8));
 
 }  // namespace
 }  // namespace kontur

@@ -8,13 +8,14 @@
 #include "kontur/bounds/empty_planes.h"
 #include "kontur/bounds/end_bounds.h"
 #include "kontur/bounds/plane_bounds.h"
+#include "kontur/bounds/wall_bounds.h"
 
 namespace kontur {
 
 Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
     const std::vector<DrawnRegion> regions = drawn_regions(planes, work);
     struct RegionBounds {
-        std::vector<Bound> bounds[3];
+        std::vector<Bound> bounds[5];
         bool is_guess[2] = {};
     };
     std::vector<RegionBounds> found(regions.size());
@@ -23,6 +24,8 @@ Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
             found[r].bounds[0] = plane_bounds(planes, regions, r);
             found[r].bounds[1] = end_bounds(planes, regions, r, 1, found[r].is_guess[0]);
             found[r].bounds[2] = end_bounds(planes, regions, r, -1, found[r].is_guess[1]);
+            found[r].bounds[3] = wall_bounds(planes, regions, r, 1);
+            found[r].bounds[4] = wall_bounds(planes, regions, r, -1);
         }
     });
     Bounds result;

@@ -103,7 +103,7 @@ public:
         for (const DrawnRegion& other : regions) belongs_.push_back(&other == &own ? 0 : belongs(other, gap));
     }
 
-    /// Over one of the region's outlines. True if the end was needed there and its height is a guess.
+    /// Over one of the region's outlines. True if most of it has nothing ahead and its height is a guess.
     bool append(std::size_t outline, std::vector<Bound>& bounds) const {
         double deepest = 0;
         for (const Probe& probe : own_.inside)
@@ -116,24 +116,26 @@ public:
         if (left < kLeastBelief) return false;
         const double noise = height * (end.belief * kNoise + (1 - end.belief) * kGuessNoise);
         const bool is_guess = end.belief < kGuess;
-        double open = 0;  // where it is a guess, how surely nothing lies ahead, however near
         const auto add = [&](const Vec3& foot, double above, double most_mm) {
-            const double seen = left * is_seen(foot, height);
-            const double needed = seen * (1 - led_on(foot, height));
-            if (is_guess) open = std::max(open, seen * (1 - led_on(foot, planes_.tolerance_mm)));
+            const double needed = left * is_seen(foot, height) * (1 - led_on(foot, height));
             if (needed > kLeastBelief)
                 bounds.push_back({.position = foot + above * up_, .most_mm = most_mm, .noise_mm = faded(noise, needed)});
         };
         const double edge = std::min(deepest, kEdge * height);
+        double open = 0, count = 0;  // over which part nothing lies ahead, however near
         for (const Probe& probe : own_.inside) {
             if (probe.outline != outline) continue;
             const double rim = 1 - std::min(probe.depth / edge, 1.0);
-            add(own_.section.plane.from_uv(probe.at), height * std::sqrt(1 - rim * rim), 0);
+            const Vec3 foot = own_.section.plane.from_uv(probe.at);
+            add(foot, height * std::sqrt(1 - rim * rim), 0);
+            if (!is_guess) continue;
+            open += left * is_seen(foot, height) * (1 - led_on(foot, planes_.tolerance_mm));
+            ++count;
         }
         // The outline itself must not be carried on, neither straight nor flaring.
         const std::size_t stride = std::max<std::size_t>(1, line.size() / kRimPoints);
         for (std::size_t i = 0; i < line.size(); i += stride) add(own_.section.plane.from_uv(line[i]), height, -height / 4);
-        return open > 0.5;
+        return open > 0.5 * count;
     }
 
 private:

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What JavaScript calls (package/src/module.ts). Text is UTF-8, requests and answers are JSON; an object is its address, 0
+// What JavaScript calls (package/src/index.ts). Text is UTF-8, requests and answers are JSON; an object is its address, 0
 // where it failed, which kontur_error tells then.
 #include <cstdint>
 #include <cstdlib>
-#include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -12,68 +11,21 @@
 #include <utility>
 #include <vector>
 
-#include "kontur/base/error.h"
 #include "kontur/editor.h"
 #include "kontur/io/contours/contour_json.h"
-#include "kontur/phantom/cases.h"
 #include "kontur/segment.h"
 #include "kontur/segment_report.h"
 #include "kontur/view/outline.h"
+#include "made.h"
 #include "requests.h"
-
-#define KONTUR_EXPORT(name) extern "C" __attribute__((export_name(#name))) auto name
+#include "samples.h"
 
 using namespace kontur;
-
-/// Told how far a call is; not 0: it shall stop.
-extern "C" __attribute__((import_module("kontur"), import_name("progress"))) int kontur_progress(const char* stage,
-                                                                                                 std::size_t length,
-                                                                                                 double fraction);
+using namespace kontur::wasm;
 
 namespace {
 
 using nlohmann::json;
-
-std::string the_error;
-
-/// Arrays of numbers as JavaScript takes them, and what else a call made.
-struct Made {
-    json about;  ///< answered as text
-    std::string text{};
-    std::vector<std::uint8_t> mask{};
-    std::vector<float> points{}, normals{};
-    std::vector<std::uint32_t> triangles{};
-    TriangleMesh mesh{};
-    ImplicitFunction function{};
-};
-
-void note_error(std::string_view kind, std::string_view message) {
-    the_error = json{{"kind", kind}, {"message", message}}.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-/// 0 where `make` throws.
-template <class Make>
-auto or_error(const Make& make) -> decltype(make()) {
-    try {
-        return make();
-    } catch (const Error& error) {
-        note_error(name(error.kind()), error.what());
-    } catch (const std::bad_alloc&) {
-        note_error(name(ErrorKind::too_large), "it needs more memory than the 4 GB that WebAssembly can address");
-    } catch (const std::exception& error) {
-        note_error("internal", error.what());
-    }
-    return {};
-}
-
-Work told_work(const StopSource& stop) {
-    return {.threads = 1,
-            .callback =
-                [stop](std::string_view stage, double fraction) {
-                    if (kontur_progress(stage.data(), stage.size(), fraction) != 0) stop.request_stop();
-                },
-            .stop = stop.token()};
-}
 
 std::vector<float> as_floats(const std::vector<Vec3>& vectors) {
     std::vector<float> floats;
@@ -91,32 +43,16 @@ void take_mesh(Made& made, TriangleMesh mesh) {
     made.mesh = std::move(mesh);
 }
 
-template <class Sample>
-Image::Samples samples_at(const void* samples, const Grid& grid) {
-    const auto* first = static_cast<const Sample*>(samples);
-    return std::vector<Sample>(first, first + grid.voxel_count());
-}
-
-/// The types of typed arrays that an image may have.
-Image image_from(const void* samples, std::string_view type, const Grid& grid) {
-    if (type == "Uint8Array") return {grid, samples_at<std::uint8_t>(samples, grid)};
-    if (type == "Int16Array") return {grid, samples_at<std::int16_t>(samples, grid)};
-    if (type == "Uint16Array") return {grid, samples_at<std::uint16_t>(samples, grid)};
-    if (type == "Int32Array") return {grid, samples_at<std::int32_t>(samples, grid)};
-    if (type == "Float32Array") return {grid, samples_at<float>(samples, grid)};
-    throw Error(ErrorKind::unsupported, "an image is a Uint8Array, Int16Array, Uint16Array, Int32Array or Float32Array");
-}
-
 Made* segmented(std::string_view text, const void* samples, std::string_view type) {
-    const wasm::Request request = wasm::request_from(text);
-    const Work work = told_work(StopSource{});
+    const Request request = request_from(text);
+    const Work work = told_work();
     const Image image = samples ? image_from(samples, type, request.grid) : Image{};
     Segmentation result = segment(request.contours, request.grid, samples ? &image : nullptr, request.options, work);
     auto made = std::make_unique<Made>();
     made->about = {
-        {"grid", wasm::to_json(request.grid)},
+        {"grid", to_json(request.grid)},
         {"report", json::parse(to_json(result.report, provenance(request.contours, request.grid, result.report)))}};
-    made->mask = std::move(result.mask.values);
+    made->voxels = std::move(result.mask.values);
     if (result.mesh) take_mesh(*made, std::move(*result.mesh));
     made->function = result.function;
     return made.release();
@@ -145,8 +81,6 @@ json as_json(const std::vector<Polyline>& lines) {
 KONTUR_EXPORT(kontur_allocate)(std::size_t bytes)->void* { return std::malloc(bytes); }
 KONTUR_EXPORT(kontur_release)(void* place)->void { std::free(place); }
 
-KONTUR_EXPORT(kontur_error)()->const char* { return the_error.c_str(); }
-
 KONTUR_EXPORT(kontur_segment)
 (const char* request, std::size_t length, const void* samples, const char* type, std::size_t type_length)->Made* {
     return or_error([&] { return segmented({request, length}, samples, {type, type_length}); });
@@ -161,17 +95,7 @@ KONTUR_EXPORT(kontur_preview)(Editor* editor, const char* contours, std::size_t 
     return or_error([&] { return edited(editor->preview(parse_contour_json({contours, length}), {.threads = 1})); });
 }
 KONTUR_EXPORT(kontur_finish)(Editor* editor, const char* contours, std::size_t length)->Made* {
-    return or_error([&] { return edited(editor->finish(parse_contour_json({contours, length}), told_work(StopSource{}))); });
-}
-
-/// Contours and grid of a case of the phantom.
-KONTUR_EXPORT(kontur_phantom)(const char* name, std::size_t length)->Made* {
-    return or_error([&] {
-        const PhantomCase chosen = phantom_case({name, length});
-        auto made = std::make_unique<Made>();
-        made->about = {{"contours", json::parse(to_contour_json(chosen.contours))}, {"grid", wasm::to_json(chosen.grid)}};
-        return made.release();
-    });
+    return or_error([&] { return edited(editor->finish(parse_contour_json({contours, length}), told_work())); });
 }
 
 KONTUR_EXPORT(kontur_drop)(Made* made)->void { delete made; }
@@ -187,7 +111,7 @@ KONTUR_EXPORT(kontur_array)(Made* made, int which, std::uint32_t* place_and_byte
             made->text = made->about.dump(-1, ' ', false, json::error_handler_t::replace);
             return tell(made->text);
         case 1:
-            return tell(made->mask);
+            return tell(made->voxels);
         case 2:
             return tell(made->points);
         case 3:
@@ -207,11 +131,25 @@ KONTUR_EXPORT(kontur_values)(const Made* made, const double* points, std::size_t
     });
 }
 
+/// A mesh of anyone's, to be cut: points and triangles of three numbers each.
+KONTUR_EXPORT(kontur_mesh)
+(const float* points, std::size_t point_count, const std::uint32_t* triangles, std::size_t triangle_count)->Made* {
+    return or_error([&] {
+        TriangleMesh mesh;
+        for (const float* p = points; p != points + 3 * point_count; p += 3) mesh.points.push_back({p[0], p[1], p[2]});
+        for (const std::uint32_t* t = triangles; t != triangles + 3 * triangle_count; t += 3)
+            mesh.triangles.push_back({t[0], t[1], t[2]});
+        auto made = std::make_unique<Made>();
+        made->mesh = std::move(mesh);
+        return made.release();
+    });
+}
+
 /// The mesh cut by a plane, as text of another object.
 KONTUR_EXPORT(kontur_outline)(const Made* made, const char* plane, std::size_t length)->Made* {
     return or_error([&] {
         auto lines = std::make_unique<Made>();
-        lines->about = as_json(outline(made->mesh, wasm::plane_from({plane, length})));
+        lines->about = as_json(outline(made->mesh, plane_from({plane, length})));
         return lines.release();
     });
 }

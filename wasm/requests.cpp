@@ -101,7 +101,32 @@ SegmentOptions options_from(const json& given) {
     return options;
 }
 
+FillOptions fill_options_from(const json& given) {
+    FillOptions options;
+    choose(options.ends, given, "ends", {FillEnds::closed, FillEnds::half, FillEnds::open});
+    choose(options.use_image, given, "useImage", {UseImage::automatic, UseImage::off});
+    for (const auto& [key, place] :
+         {std::pair("shapeWeight", &options.shape_weight), std::pair("smoothingVoxels", &options.smoothing_voxels)})
+        if (given.contains(key)) *place = number_of(given[key], key);
+    if (given.contains("jointly") && !given["jointly"].is_boolean()) refuse("jointly is neither true nor false");
+    options.jointly = given.value("jointly", options.jointly);
+    if (!given.contains("labels")) return options;
+    if (!given["labels"].is_array()) refuse("labels is no list of numbers");
+    for (const json& label : given["labels"])
+        options.labels.push_back(static_cast<std::int64_t>(number_of(label, "labels")));
+    return options;
+}
+
 }  // namespace
+
+FillRequest fill_request_from(std::string_view text) {
+    const json request = parsed(text);
+    if (!request.contains("grid")) refuse("the request has no grid");
+    return {grid_from(request["grid"]), request.value("labelsType", ""), request.value("imageType", ""),
+            fill_options_from(request.value("options", json::object()))};
+}
+
+Grid grid_from(std::string_view text) { return grid_from(parsed(text)); }
 
 Request request_from(std::string_view text) {
     const json request = parsed(text);

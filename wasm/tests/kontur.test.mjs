@@ -57,6 +57,70 @@ describe("masks", () => {
   });
 });
 
+describe("label maps", () => {
+  const grid = {
+    size: [40, 36, 32],
+    indexToMm: [
+      [1, 0, 0, -20],
+      [0, 1.2, 0, 7],
+      [0, 0, 1.5, 3],
+    ],
+  };
+  const inBall = (n, radius = 15) => {
+    const [i, j, k] = [n % 40, Math.floor(n / 40) % 36, Math.floor(n / (40 * 36))];
+    return Math.hypot(i - 20, 1.2 * (j - 18), 1.5 * (k - 16)) < radius;
+  };
+  const sparse = (Type, label = 1) => Type.from({ length: 40 * 36 * 32 }, (_, n) => (Math.floor(n / (40 * 36)) % 5 === 1 && inBall(n) ? label : 0));
+  const counted = (labels, label) => labels.reduce((sum, value) => sum + (value === label ? 1 : 0), 0);
+
+  test("of which every fifth slice is painted are filled, and what was painted stays", () => {
+    const labels = sparse(Uint8Array);
+    const filled = kontur.fill({ labels, grid });
+    assert.ok(labels.every((label, n) => label === 0 || filled.labels[n] === label));
+    const ball = Array.from(labels, (_, n) => (inBall(n) && n >= labels.indexOf(1) && n <= labels.lastIndexOf(1) ? 1 : 0));
+    const dice = (2 * ball.reduce((sum, value, n) => sum + value * filled.labels[n], 0)) / (counted(ball, 1) + counted(filled.labels, 1));
+    assert.ok(dice > 0.985, `${dice}`);
+    const [one] = filled.report.labels;
+    assert.equal(one.painted_voxels + one.added_voxels, counted(filled.labels, 1));
+    assert.deepEqual([one.label, one.slices], [1, [0, 0, one.slices[2]]]);
+  });
+
+  test("of other types come back as those", () => {
+    const one = kontur.fill({ labels: sparse(Uint8Array), grid });
+    for (const Type of [Int16Array, Uint16Array, Int32Array, Float32Array]) {
+      const { labels } = kontur.fill({ labels: sparse(Type, 3), grid });
+      assert.equal(labels.constructor, Type);
+      assert.equal(counted(labels, 3), counted(one.labels, 1));
+    }
+  });
+
+  test("that cannot be filled are refused", () => {
+    const refused = (request, words) =>
+      assert.throws(() => kontur.fill({ labels: sparse(Uint8Array), grid, ...request }), { name: "KonturError", message: words });
+    refused({ labels: new Uint8Array(5) }, /^the label map has 5 samples, and its grid 46080 voxels$/);
+    refused({ labels: new Float64Array(40 * 36 * 32) }, /Float64Array/);
+    refused({ image: new Int16Array(5) }, /^the image has 5 samples/);
+    refused({ options: { ends: "round" } }, /ends is "round"; it takes closed, half, open/);
+    refused({ options: { labels: [7] } }, /7/);
+  });
+});
+
+test("a mesh of anyone's is cut by planes", () => {
+  const points = Float32Array.from([0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2]);
+  const triangles = Uint32Array.from([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
+  const found = kontur.outlines(
+    { points, triangles },
+    [1, 3].map((z) => ({ origin: [0, 0, z], normal: [0, 0, 1] })),
+  );
+  assert.deepEqual(
+    found.map((lines) => lines.length),
+    [1, 0],
+  );
+  const [{ closed, points: corners }] = found[0];
+  assert.ok(closed && corners.length === 9 && corners.every((value, n) => (n % 3 === 2 ? value === 1 : value === 0 || value === 1)), `${corners}`);
+  assert.throws(() => kontur.outlines({ points, triangles: Uint32Array.from([0, 1, 9]) }, [{ origin: [0, 0, 1], normal: [0, 0, 1] }]), { name: "KonturError" });
+});
+
 test("the mesh, its outlines and the function agree", () => {
   const made = kontur.segment(request("kidney_radial6"));
   const { points, normals, triangles } = made.mesh;
@@ -111,6 +175,20 @@ describe("in a worker", () => {
     assert.ok(stages.size > 1);
     assert.ok((await worker.preview(contours("kidney_radial6"))).mesh.points.length > 0);
     await assert.rejects(worker.segment({}), { kind: "invalid_input" });
+    const plane = { origin: [0, 0, 0], normal: [0, 0, 1] };
+    assert.deepEqual(await worker.outlines(made.mesh, [plane]), kontur.outlines(made.mesh, [plane]));
+    const painted = {
+      labels: Uint8Array.from({ length: 1000 }, (_, n) => (n % 300 < 100 && n % 10 < 5 ? 1 : 0)),
+      grid: {
+        size: [10, 10, 10],
+        indexToMm: [
+          [1, 0, 0, 0],
+          [0, 1, 0, 0],
+          [0, 0, 1, 0],
+        ],
+      },
+    };
+    assert.deepEqual(await worker.fill(painted), kontur.fill(painted));
     worker.cancel();
   });
 

@@ -1,5 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-import { type Contours, type ErrorKind, type Grid, KonturError, type Mesh, type Plane, type Polyline, type Progress, type Request } from "./types.js";
+import {
+  type Contours,
+  type ErrorKind,
+  type Filled,
+  type FillRequest,
+  type Grid,
+  KonturError,
+  type Mesh,
+  type Plane,
+  type Polyline,
+  type Progress,
+  type Request,
+} from "./types.js";
 import type { Call } from "./worker.js";
 
 interface Answer {
@@ -40,12 +52,21 @@ export class KonturWorker {
     return this.call({ name: "segment", request, tells: progress !== undefined }, progress) as Promise<never>;
   }
 
+  fill(request: FillRequest, progress?: Progress): Promise<Filled> {
+    return this.call({ name: "fill", request, tells: progress !== undefined }, progress) as Promise<never>;
+  }
+
   preview(contours: Contours): Promise<{ mesh: Mesh }> {
     return this.call({ name: "preview", contours }) as Promise<never>;
   }
 
   finish(contours: Contours): Promise<{ mesh: Mesh }> {
     return this.call({ name: "finish", contours }) as Promise<never>;
+  }
+
+  /** Where each plane cuts a mesh, anyone's. */
+  outlines(mesh: Pick<Mesh, "points" | "triangles">, planes: Plane[]): Promise<Polyline[][]> {
+    return this.call({ name: "outlines", mesh, planes }) as Promise<never>;
   }
 
   /** Where a plane cuts the surface that was made last. */

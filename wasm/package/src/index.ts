@@ -1,5 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-import { type Contours, type ErrorKind, type Grid, KonturError, type Mesh, type Plane, type Polyline, type Progress, type Request } from "./types.js";
+import { SAMPLES, type SampleType, typed } from "./samples.js";
+import {
+  type Contours,
+  type ErrorKind,
+  type Filled,
+  type FillRequest,
+  type Grid,
+  KonturError,
+  type Mesh,
+  type Plane,
+  type Polyline,
+  type Progress,
+  type Request,
+} from "./types.js";
 import { wasi } from "./wasi.js";
 
 export * from "./client.js";
@@ -16,16 +29,20 @@ interface Exports {
   kontur_drop_editor(editor: number): void;
   kontur_preview(editor: number, contours: number, length: number): number;
   kontur_finish(editor: number, contours: number, length: number): number;
+  kontur_fill(request: number, length: number, labels: number, image: number): number;
   kontur_phantom(name: number, length: number): number;
+  kontur_phantom_truth(name: number, length: number, grid: number, gridLength: number): number;
+  kontur_phantom_image(grid: number, length: number): number;
   kontur_drop(made: number): void;
   kontur_array(made: number, which: number, answer: number): void;
   kontur_values(made: number, points: number, count: number, values: number): number;
+  kontur_mesh(points: number, pointCount: number, triangles: number, triangleCount: number): number;
   kontur_outline(made: number, plane: number, length: number): number;
 }
 
 const enum Part {
   about = 0,
-  mask = 1,
+  voxels = 1,
   points = 2,
   normals = 3,
   triangles = 4,
@@ -72,7 +89,7 @@ export class Segmentation extends Surface {
     const about = kontur.about(address) as { grid: Grid; report: Record<string, unknown> };
     this.grid = about.grid;
     this.report = about.report;
-    this.mask = kontur.bytes(address, Part.mask);
+    this.mask = kontur.bytes(address, Part.voxels);
   }
 }
 
@@ -120,7 +137,7 @@ export class Kontur {
   /** Contours to mask and surface. */
   segment(request: Request): Segmentation {
     const { image, ...rest } = request;
-    const type = image?.constructor.name ?? "";
+    const type = image ? typed(image, request.grid, "the image") : "";
     return this.withBytes(image ?? new Uint8Array(), (samples) =>
       this.withText(type, (name, nameLength) =>
         this.withText(JSON.stringify(rest), (text, length) => {
@@ -131,6 +148,31 @@ export class Kontur {
     );
   }
 
+  /** Painted slices to whole labels. */
+  fill({ labels, image, grid, options }: FillRequest): Filled {
+    const imageType = image && typed(image, grid, "the image");
+    const request = JSON.stringify({ grid, options, imageType, labelsType: typed(labels, grid, "the label map") });
+    const made = this.withBytes(image ?? new Uint8Array(), (imagePlace) =>
+      this.withBytes(labels, (labelsPlace) =>
+        this.withText(request, (text, length) => this.made(this.exports.kontur_fill(text, length, labelsPlace, image ? imagePlace : 0))),
+      ),
+    );
+    const { type, report } = this.about(made) as { type: SampleType; report: Filled["report"] };
+    return { labels: new SAMPLES[type](this.voxels(made)), report };
+  }
+
+  /** Where each plane cuts a mesh, anyone's. */
+  outlines({ points, triangles }: Pick<Mesh, "points" | "triangles">, planes: Plane[]): Polyline[][] {
+    const made = this.withBytes(points, (place) =>
+      this.withBytes(triangles, (corners) => this.made(this.exports.kontur_mesh(place, points.length / 3, corners, triangles.length / 3))),
+    );
+    try {
+      return planes.map((plane) => this.outline(made, plane));
+    } finally {
+      this.drop(made);
+    }
+  }
+
   editor(): Editor {
     return new Editor(this, this.made(this.exports.kontur_new_editor()));
   }
@@ -138,6 +180,22 @@ export class Kontur {
   /** Contours and grid of a case of the phantom that kontur generates, such as "liver_parallel14". */
   phantom(name: string): { contours: Contours; grid: Grid } {
     return this.answer(this.withText(name, (text, length) => this.exports.kontur_phantom(text, length))) as { contours: Contours; grid: Grid };
+  }
+
+  /** 1 in the body of a case of the phantom, 0 elsewhere. */
+  phantomTruth(name: string, grid: Grid): Uint8Array {
+    return new Uint8Array(
+      this.voxels(
+        this.withText(name, (text, length) =>
+          this.withText(JSON.stringify(grid), (gridText, gridLength) => this.made(this.exports.kontur_phantom_truth(text, length, gridText, gridLength))),
+        ),
+      ),
+    );
+  }
+
+  /** The phantom's CT on a grid, in Hounsfield units. */
+  phantomImage(grid: Grid): Int16Array {
+    return new Int16Array(this.voxels(this.withText(JSON.stringify(grid), (text, length) => this.made(this.exports.kontur_phantom_image(text, length)))));
   }
 
   /** Of the module's memory, which grows and never shrinks. */
@@ -190,6 +248,12 @@ export class Kontur {
   /** @internal */
   dropEditor(editor: number): void {
     this.exports.kontur_drop_editor(editor);
+  }
+
+  private voxels(made: number): ArrayBuffer {
+    const { buffer } = this.bytes(made, Part.voxels);
+    this.drop(made);
+    return buffer as ArrayBuffer;
   }
 
   private answer(made: number): unknown {

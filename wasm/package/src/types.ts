@@ -56,6 +56,37 @@ export interface Request {
   image?: Samples;
 }
 
+/** As of `kontur fill`; what is left out is as there. */
+export interface FillOptions {
+  ends?: "closed" | "half" | "open";
+  useImage?: "automatic" | "off";
+  jointly?: boolean;
+  shapeWeight?: number;
+  smoothingVoxels?: number;
+  /** Only these; left out: all. */
+  labels?: number[];
+}
+
+/** A label map of which some slices are painted, across any axes of the grid. */
+export interface FillRequest {
+  labels: Samples;
+  grid: Grid;
+  /** Tells how labels run between their slices, where it helps. */
+  image?: Samples;
+  options?: FillOptions;
+}
+
+/** The label map with what was between the slices. */
+export interface Filled {
+  labels: Samples;
+  /** As `kontur fill --report` writes it, but for the image and the times. */
+  report: {
+    labels: { label: number; slices: [number, number, number]; painted_voxels: number; added_voxels: number; warnings: string[] }[];
+    contested_voxels: number;
+    closed_voxels: number;
+  };
+}
+
 export interface Mesh {
   /** mm (LPS), three numbers to a point. */
   points: Float32Array;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // kontur in a worker: what KonturWorker starts. Answers one call after the other.
-import { type Contours, Kontur, KonturError, type Plane, type Request, type Surface } from "./index.js";
+import { type Contours, type FillRequest, Kontur, KonturError, type Mesh, type Plane, type Request, type Surface } from "./index.js";
 
 export type Call =
   | { name: "load"; module: WebAssembly.Module }
   | { name: "segment"; request: Request; tells: boolean }
+  | { name: "fill"; request: FillRequest; tells: boolean }
   | { name: "preview" | "finish"; contours: Contours }
+  | { name: "outlines"; mesh: Pick<Mesh, "points" | "triangles">; planes: Plane[] }
   | { name: "outline"; plane: Plane }
   | { name: "values"; points: Float64Array };
 
@@ -28,9 +30,11 @@ async function answer(mine: Mine, id: number, call: Call, port: Port): Promise<u
   }
   const { kontur } = mine;
   if (!kontur) throw new Error("the worker was not loaded");
+  kontur.progress = "tells" in call && call.tells ? (stage, fraction) => port.postMessage({ id, stage, fraction }) : undefined;
   switch (call.name) {
+    case "fill":
+      return kontur.fill(call.request);
     case "segment": {
-      kontur.progress = call.tells ? (stage, fraction) => port.postMessage({ id, stage, fraction }) : undefined;
       const { mask, grid, report, mesh } = keep(mine, kontur.segment(call.request)) as ReturnType<Kontur["segment"]>;
       return { mask, grid, report, mesh };
     }
@@ -38,6 +42,8 @@ async function answer(mine: Mine, id: number, call: Call, port: Port): Promise<u
     case "finish":
       mine.editor ??= kontur.editor();
       return { mesh: keep(mine, mine.editor[call.name](call.contours)).mesh };
+    case "outlines":
+      return kontur.outlines(call.mesh, call.planes);
     case "outline":
       return mine.surface?.outline(call.plane) ?? [];
     case "values":

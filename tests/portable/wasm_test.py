@@ -54,7 +54,7 @@ def passes(tests, package, **environment):
 
 
 def test_it_is_built_and_passes_its_own_tests(package):
-    passes(["kontur", "page"], package)
+    passes(["adapters", "kontur", "page"], package)
 
 
 def test_it_works_in_niivue_and_in_cornerstone3d(package, peers):

@@ -59,7 +59,7 @@ engine.setViewports([
 const axial = engine.getViewport("axial");
 for (const viewport of engine.getViewports()) await viewport.setVolumes([{ volumeId: VOLUME }]);
 axial.setProperties({ voiRange: { lower: -100, upper: 250 } });
-engine.getViewport("whole").setVisibility?.(false);
+for (const { actor } of engine.getViewport("whole").getActors()) actor.setVisibility(false); // the surface alone
 
 const group = tools.ToolGroupManager.createToolGroup("drawing");
 const { toolName } = tools.PlanarFreehandContourSegmentationTool;
@@ -90,18 +90,24 @@ async function tell(work) {
   engine.render();
 }
 
+/** Cornerstone3D asks the add-on for what it is to show and does not have. */
+async function made(type) {
+  while (!data()[type]) await new Promise((done) => setTimeout(done, 50));
+  return data()[type];
+}
+
 byId("labelmap").onclick = () =>
   tell(async () => {
-    data()[Labelmap] = await polySeg.computeLabelmapData(SEGMENTATION, { viewport: axial });
-    await tools.segmentation.addLabelmapRepresentationToViewport("axial", [{ segmentationId: SEGMENTATION }]);
-    const labels = core.cache.getVolume(data()[Labelmap].volumeId).voxelManager.getCompleteScalarDataArray();
+    tools.segmentation.addLabelmapRepresentationToViewport("axial", [{ segmentationId: SEGMENTATION }]);
+    const { volumeId } = await made(Labelmap);
+    const labels = core.cache.getVolume(volumeId).voxelManager.getCompleteScalarDataArray();
     return `${labels.reduce((sum, label) => sum + (label === 1 ? 1 : 0), 0)} voxels in the label map`;
   });
 byId("surface").onclick = () =>
   tell(async () => {
-    data()[Surface] = await polySeg.computeSurfaceData(SEGMENTATION, { viewport: engine.getViewport("whole") });
-    await tools.segmentation.addSurfaceRepresentationToViewport("whole", [{ segmentationId: SEGMENTATION }]);
-    return `${core.cache.getGeometry(data()[Surface].geometryIds.get(1)).data.points.length / 3} points on the surface`;
+    tools.segmentation.addSurfaceRepresentationToViewport("whole", [{ segmentationId: SEGMENTATION }]);
+    const { geometryIds } = await made(Surface);
+    return `${core.cache.getGeometry(geometryIds.get(1)).data.points.length / 3} points on the surface`;
   });
 byId("outlines").onclick = () =>
   tell(async () => {

@@ -64,7 +64,7 @@ export interface Cornerstone {
     annotation: { state: { getAnnotation(uid: string): Annotation | undefined; addAnnotation(annotation: Annotation, element: unknown): void } };
     segmentation: {
       state: { getSegmentation(id: string): Segmentation | undefined };
-      config: { color: { getSegmentIndexColor(viewportId: string, segmentationId: string, segmentIndex: number): number[] } };
+      config: { color: { getSegmentIndexColor(viewportId: string, segmentationId: string, segmentIndex: number): number[] | null } };
       triggerSegmentationEvents: { triggerSegmentationModified(id: string): void };
     };
     PlanarFreehandContourSegmentationTool: { toolName: string };

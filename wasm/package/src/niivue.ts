@@ -38,7 +38,7 @@ export function drawingGrid(nv: Niivue): Grid {
 export async function fillDrawing(nv: Niivue, kontur: Engine, options: FillOptions = {}): Promise<Filled["report"]> {
   const grid = drawingGrid(nv);
   if (!nv.drawBitmap) throw new KonturError("invalid_input", "nothing is painted: there is no drawing");
-  const image = options.useImage === "automatic" ? samples(firstVolume(nv)) : undefined;
+  const image = options.useImage === "auto" ? samples(firstVolume(nv)) : undefined;
   const filled = await kontur.fill({ labels: nv.drawBitmap, grid, options, ...(image && { image }) });
   show(nv, Uint8Array.from(filled.labels));
   return filled.report;

@@ -105,7 +105,7 @@ async function surfacesOf(cs: Cornerstone, kontur: Engine, id: string, asked: As
           ...data,
           id: geometryId,
           segmentIndex,
-          color: asked.viewport && cs.tools.segmentation.config.color.getSegmentIndexColor(asked.viewport.id, id, segmentIndex).slice(0, 3),
+          color: asked.viewport && cs.tools.segmentation.config.color.getSegmentIndexColor(asked.viewport.id, id, segmentIndex)?.slice(0, 3),
           frameOfReferenceUID: asked.viewport?.getFrameOfReferenceUID(),
         },
       });

@@ -35,7 +35,7 @@ export interface Options {
   conflicts?: "reconcile" | "newest_wins" | "exact";
   fillRule?: "even_odd" | "declared";
   corners?: "rounded" | "faithful";
-  useImage?: "automatic" | "off";
+  useImage?: "auto" | "off";
   normalOffsetMm?: number;
   smoothing?: number;
   toleranceMm?: number;
@@ -59,7 +59,7 @@ export interface Request {
 /** As of `kontur fill`; what is left out is as there. */
 export interface FillOptions {
   ends?: "closed" | "half" | "open";
-  useImage?: "automatic" | "off";
+  useImage?: "auto" | "off";
   jointly?: boolean;
   shapeWeight?: number;
   smoothingVoxels?: number;

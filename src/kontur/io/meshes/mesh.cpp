@@ -29,7 +29,7 @@ constexpr std::array kFormats{Format{".stl", write_stl, parse_stl}, Format{".ply
 
 const Format& format_of(const std::filesystem::path& path) {
     const std::string extension = lower_case(path.extension().string());
-    const auto* format =
+    const auto format =
         std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& f) { return f.extension == extension; });
     if (format == kFormats.end())
         throw Error(

@@ -58,7 +58,7 @@ PlyType type_of(std::string_view word) {
                                           {"float32", PlyType::float32},
                                           {"double", PlyType::float64},
                                           {"float64", PlyType::float64}}};
-    const auto* found = std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.name == word; });
+    const auto found = std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.name == word; });
     if (found == names.end())
         throw Error(ErrorKind::corrupt_file, fmt::format("\"{}\" is no PLY number type", word.substr(0, 40)));
     return found->type;

@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: Apache-2.0
 // The same painted slices of the phantom, filled in WebAssembly by kontur, by ITK's morphological contour interpolation and by
-// niivue, each in a process of its own; prints the table of docs/fill.md.
+// niivue, each in a process of its own; prints the table of the package's README.
 //
 // Usage: wasm/bench/fill.mjs PACKAGE PEERS KONTUR
 //   PACKAGE  kontur-wasm as `make wasm` builds it

@@ -5,6 +5,7 @@ import * as core from "@cornerstonejs/core";
 import * as tools from "@cornerstonejs/tools";
 import { Kontur, KonturWorker } from "kontur-wasm";
 import { konturPolySeg } from "kontur-wasm/cornerstone";
+import { kidneyGrid } from "./phantom.js";
 
 const VOLUME = "phantom";
 const SEGMENTATION = "kidney";
@@ -17,17 +18,6 @@ const worker = new KonturWorker(module, () => new Worker(new URL("./kontur-wasm/
 const polySeg = konturPolySeg({ core, tools }, worker);
 await core.init();
 await tools.init({ addons: { polySeg } });
-
-/** The voxels of 2 mm around the phantom's kidney. */
-function kidneyGrid({ planes }) {
-  const points = planes.flatMap((plane) => plane.contours.flatMap((contour) => contour.points));
-  const least = [0, 1, 2].map((axis) => Math.min(...points.map((point) => point[axis])) - 20);
-  const most = [0, 1, 2].map((axis) => Math.max(...points.map((point) => point[axis])) + 20);
-  return {
-    size: least.map((from, axis) => Math.ceil((most[axis] - from) / 2)),
-    indexToMm: [0, 1, 2].map((row) => [0, 1, 2].map((axis) => (axis === row ? 2 : 0)).concat(least[row])),
-  };
-}
 
 const grid = kidneyGrid(here.phantom("kidney_radial6").contours);
 core.volumeLoader.createLocalVolume(VOLUME, {

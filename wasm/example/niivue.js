@@ -3,6 +3,7 @@
 import { NVImage, Niivue, SHOW_RENDER } from "@niivue/niivue";
 import { Kontur, KonturWorker } from "kontur-wasm";
 import { drawContours, fillDrawing } from "kontur-wasm/niivue";
+import { kidneyGrid } from "./phantom.js";
 
 const INT16 = 4; // NIfTI's code
 const AXIAL = 2;
@@ -10,17 +11,6 @@ const byId = (id) => document.getElementById(id);
 const module = await WebAssembly.compile(await (await fetch("./kontur-wasm/kontur.wasm")).arrayBuffer());
 const here = await Kontur.load(module);
 const worker = new KonturWorker(module, () => new Worker(new URL("./kontur-wasm/worker.js", import.meta.url), { type: "module" }));
-
-/** The voxels of 2 mm around the phantom's kidney, in LPS as a CT has them. */
-function kidneyGrid({ planes }) {
-  const points = planes.flatMap((plane) => plane.contours.flatMap((contour) => contour.points));
-  const least = [0, 1, 2].map((axis) => Math.min(...points.map((point) => point[axis])) - 20);
-  const most = [0, 1, 2].map((axis) => Math.max(...points.map((point) => point[axis])) + 20);
-  return {
-    size: least.map((from, axis) => Math.ceil((most[axis] - from) / 2)),
-    indexToMm: [0, 1, 2].map((row) => [0, 1, 2].map((axis) => (axis === row ? 2 : 0)).concat(least[row])),
-  };
-}
 
 const { contours } = here.phantom("kidney_radial6");
 const grid = kidneyGrid(contours);

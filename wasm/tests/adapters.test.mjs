@@ -137,6 +137,28 @@ describe("Cornerstone3D", () => {
     assert.deepEqual(calls, ["init", "update"]);
   });
 
+  test("surfaces follow their contours: one update at a time, of what is drawn to its end", async () => {
+    const annotations = [-6, 0, 6].map((z) => annotation(circle(z, 10)));
+    annotations.push({ data: { contour: { polyline: [[0, 0, 3]], closed: false } } });
+    const cs = cornerstone(annotations);
+    const surface = { data: { points: [], polys: [], segmentIndex: 1 } };
+    let told = 0;
+    cs.core.cache.getGeometry = () => surface;
+    cs.tools.segmentation.triggerSegmentationEvents = { triggerSegmentationModified: () => told++ };
+    cs.segmentation.representationData.Surface = { geometryIds: new Map([[1, "surface"]]) };
+    let calls = 0;
+    const counting = { segment: async (request) => (calls++, kontur.segment(request)) };
+    const polySeg = konturPolySeg(cs, counting);
+    await Promise.all(Array.from({ length: 5 }, () => polySeg.updateSurfaceData("s")));
+    assert.deepEqual([calls, told], [2, 1]);
+    const { mesh } = kontur.segment({ contours: contoursOf(annotations.slice(0, 3)) });
+    assert.deepEqual(surface.data.points, mesh.points);
+    assert.deepEqual(Array.from(surface.data.polys.slice(0, 4)), [3, ...mesh.triangles.slice(0, 3)]);
+    cs.segmentation.representationData.Contour.annotationUIDsMap.get(1).clear();
+    await polySeg.updateSurfaceData("s");
+    assert.deepEqual([surface.data.points, surface.data.polys], [[], []]);
+  });
+
   test("what is not there is named", async () => {
     await assert.rejects(fillFromContours(cornerstone([]), kontur, "t", { volumeId: "map" }), { message: "there is no segmentation t" });
     await assert.rejects(fillLabelmap(cornerstone([]), kontur, "lost"), { message: "there is no volume lost" });

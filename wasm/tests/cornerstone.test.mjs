@@ -45,16 +45,21 @@ async function axial() {
   return { middle: [box.x + middle[0], box.y + middle[1]], pixelsPerMm: Math.abs(aside[0] - middle[0]) / 10 };
 }
 
-const drawn = () =>
-  page.evaluate(() => [...data().Contour.annotationUIDsMap.get(1)].map((uid) => tools.annotation.state.getAnnotation(uid).data.contour.polyline));
-
-test("contours drawn on five slices become a label map: kontur's own mask", { skip }, async () => {
+/** Its circles on slices of these heights. */
+async function drawBall(heights) {
   const half = await page.evaluate(() => Math.floor(grid.size[2] / 2));
-  for (const height of HEIGHTS) {
+  for (const height of heights) {
     await page.locator("#slice").fill(String(half + height));
     const { middle, pixelsPerMm } = await axial();
     await dragCircle(page, middle, Math.sqrt(RADIUS_MM ** 2 - (2 * height) ** 2) * pixelsPerMm);
   }
+}
+
+const drawn = () =>
+  page.evaluate(() => [...data().Contour.annotationUIDsMap.get(1)].map((uid) => tools.annotation.state.getAnnotation(uid).data.contour.polyline));
+
+test("contours drawn on five slices become a label map: kontur's own mask", { skip }, async () => {
+  await drawBall(HEIGHTS);
   const lines = await drawn();
   assert.equal(lines.length, HEIGHTS.length);
   await page.click("#labelmap");
@@ -94,4 +99,23 @@ test("and a surface, which outlines on all slices", { skip }, async () => {
   }
   await page.locator("#slice").fill(String(await page.evaluate(() => Math.floor(grid.size[2] / 2) + 4)));
   await picture(page, "cornerstone");
+});
+
+test("a surface follows the next contour", { skip }, async () => {
+  await page.reload();
+  await told(page, /Drag/);
+  await drawBall([-7, 7]);
+  await page.click("#surface");
+  await told(page, /points on the surface/);
+  await drawBall([0]);
+  const expected = await page.evaluate(
+    (lines) => {
+      const planes = lines.map((points) => ({ origin: points[0], normal: [0, 0, 1], contours: [{ points }] }));
+      return kontur.segment({ contours: { frame: "LPS mm", planes } }).mesh.points.length;
+    },
+    await drawn(),
+  );
+  const shown = () => page.evaluate(() => core.cache.getGeometry(data().Surface.geometryIds.get(1)).data.points.length);
+  for (let tries = 0; tries < 100 && (await shown()) !== expected; tries++) await page.waitForTimeout(200);
+  assert.equal(await shown(), expected);
 });

@@ -29,13 +29,14 @@ export function contoursOf(annotations: Annotation[]): Contours {
   return { frame: "LPS mm", planes: [...planes.values()] };
 }
 
-/** The annotations of a segment, with those of its holes. */
+/** The annotations of a segment, with those of its holes; not one that is just being drawn, which is open. */
 export function annotationsOf(cs: Cornerstone, segmentation: Segmentation, segmentIndex: number): Annotation[] {
   const { getAnnotation } = cs.tools.annotation.state;
   const uids = segmentation.representationData.Contour?.annotationUIDsMap?.get(segmentIndex) ?? new Set<string>();
   const outer = [...uids].map(getAnnotation).filter((annotation) => annotation !== undefined);
   const inner = outer.flatMap((annotation) => annotation.childAnnotationUIDs ?? []).filter((uid) => !uids.has(uid));
-  return [...outer, ...inner.map(getAnnotation).filter((annotation) => annotation !== undefined)];
+  const all = [...outer, ...inner.map(getAnnotation).filter((annotation) => annotation !== undefined)];
+  return all.filter(({ data }) => data.contour?.closed && (data.contour.polyline?.length ?? 0) > 2);
 }
 
 /**

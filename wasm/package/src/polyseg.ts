@@ -34,6 +34,7 @@ export function konturPolySeg(cs: Cornerstone, kontur: Engine, other?: PolySeg):
     if (other) return theirs(other);
     return Promise.reject(new KonturError("unsupported", `segmentation ${id} has no ${type === "Contour" ? "surface" : "contours"} to make its ${type} from`));
   };
+  const updated = updater(cs, kontur);
   const cut = (surfaces: Surface[], viewport: Viewport) => cutsOf(kontur, surfaces, viewport);
   const add = (found: Map<number, Cut[]>, viewport: Viewport, id: string) => addCuts(cs, found, viewport, id);
   return {
@@ -63,14 +64,36 @@ export function konturPolySeg(cs: Cornerstone, kontur: Engine, other?: PolySeg):
         }),
         (add) => add.computeContourData(id, asked),
       ),
-    updateSurfaceData: async (id, asked = {}) => {
-      if (!own(id, "Surface")) return other?.updateSurfaceData(id, asked);
-      await surfacesOf(cs, kontur, id, asked);
-      cs.tools.segmentation.triggerSegmentationEvents.triggerSegmentationModified(id);
+    updateSurfaceData: (id, asked = {}) => {
+      if (own(id, "Surface")) return updated(id, asked);
+      return other ? other.updateSurfaceData(id, asked) : Promise.resolve();
     },
     clipAndCacheSurfacesForViewport: cut,
     extractContourData: extractCuts,
     createAndAddContourSegmentationsFromClippedSurfaces: add,
+  };
+}
+
+/** Cornerstone3D asks after every move of the pointer: while one update runs, others become a single one after it. */
+function updater(cs: Cornerstone, kontur: Engine): (id: string, asked: Asked) => Promise<void> {
+  const running = new Map<string, { again: boolean; done: Promise<void> }>();
+  const update = async (id: string, asked: Asked) => {
+    do {
+      running.get(id)!.again = false;
+      await surfacesOf(cs, kontur, id, asked);
+    } while (running.get(id)!.again);
+    cs.tools.segmentation.triggerSegmentationEvents.triggerSegmentationModified(id);
+  };
+  return (id, asked) => {
+    const now = running.get(id);
+    if (now) {
+      now.again = true;
+      return now.done;
+    }
+    const started = { again: false, done: Promise.resolve() };
+    running.set(id, started);
+    started.done = update(id, asked).finally(() => running.delete(id));
+    return started.done;
   };
 }
 
@@ -111,6 +134,8 @@ async function surfacesOf(cs: Cornerstone, kontur: Engine, id: string, asked: As
       });
     geometryIds.set(segmentIndex, geometryId);
   }
+  for (const [segmentIndex, geometryId] of segmentation.representationData.Surface?.geometryIds ?? [])
+    if (!indicesOf(asked) && !geometryIds.has(segmentIndex)) Object.assign(cs.core.cache.getGeometry(geometryId)?.data ?? {}, { points: [], polys: [] });
   return { geometryIds };
 }
 

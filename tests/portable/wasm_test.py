@@ -59,3 +59,14 @@ def test_it_is_built_and_passes_its_own_tests(package):
 
 def test_it_works_in_niivue_and_in_cornerstone3d(package, peers):
     passes(["niivue", "cornerstone"], package, KONTUR_PEERS=str(peers))
+
+
+def test_its_types_are_those_of_niivue_and_cornerstone3d(package, peers):
+    link = peers / "node_modules/kontur-wasm"
+    link.unlink(missing_ok=True)
+    link.symlink_to(package)
+    shutil.copy(TESTS / "types.ts", peers)
+    options = ["--noEmit", "--strict", "--skipLibCheck", "--target", "ES2022", "--module", "ES2022", "--moduleResolution", "bundler"]
+    result = subprocess.run([TSC, *options, "types.ts"], cwd=peers, capture_output=True, text=True)
+    ours = [line for line in result.stdout.splitlines() if not line.startswith(("node_modules/", " "))]
+    assert not ours, "\n".join(ours)

@@ -72,7 +72,7 @@ export async function fillFromContours(
 /** Fills a label map between the slices that were painted. */
 export async function fillLabelmap(cs: Cornerstone, kontur: Engine, volumeId: string, options: FillOptions = {}): Promise<Filled["report"]> {
   const volume = volumeOf(cs, volumeId);
-  const labels = Uint16Array.from(volume.voxelManager.getCompleteScalarDataArray());
+  const labels = Uint16Array.from(voxelsOf(volume).getCompleteScalarDataArray!());
   const filled = await kontur.fill({ labels, grid: volumeGrid(volume), options });
   write(volume, filled.labels);
   return filled.report;
@@ -104,7 +104,7 @@ export function addContours(cs: Cornerstone, lines: { line: Polyline; plane: Pla
           cameraFocalPoint: plane.origin,
         },
       },
-      element,
+      element as never,
     );
     return annotationUID;
   });
@@ -128,8 +128,14 @@ function volumeOf(cs: Cornerstone, volumeId: string): ImageVolume {
   return volume;
 }
 
+function voxelsOf({ voxelManager, volumeId }: ImageVolume): NonNullable<ImageVolume["voxelManager"]> {
+  if (!voxelManager?.getCompleteScalarDataArray || !voxelManager.setCompleteScalarDataArray)
+    throw new KonturError("unsupported", `volume ${volumeId} does not give its voxels as one array`);
+  return voxelManager;
+}
+
 function write(volume: ImageVolume, labels: Samples): void {
-  volume.voxelManager.setCompleteScalarDataArray(labels);
+  voxelsOf(volume).setCompleteScalarDataArray!(labels);
   volume.modified();
 }
 

@@ -8,7 +8,7 @@ export interface ImageVolume {
   /** Of the first, the second and the third axis: three numbers each. */
   direction: ArrayLike<number>;
   origin: ArrayLike<number>;
-  voxelManager: { getCompleteScalarDataArray(): ArrayLike<number>; setCompleteScalarDataArray(values: ArrayLike<number>): void };
+  voxelManager?: { getCompleteScalarDataArray?(): ArrayLike<number>; setCompleteScalarDataArray?(values: ArrayLike<number>): void } | undefined;
   modified(): void;
 }
 
@@ -16,14 +16,14 @@ export interface Annotation {
   annotationUID?: string;
   childAnnotationUIDs?: string[];
   data: { contour?: { polyline?: number[][]; closed?: boolean }; [key: string]: unknown };
-  metadata?: { viewPlaneNormal?: ArrayLike<number>; [key: string]: unknown };
-  [key: string]: unknown;
+  metadata?: { viewPlaneNormal?: ArrayLike<number> } | undefined;
 }
 
 /** Where annotations go, and what else their metadata has: FrameOfReferenceUID at least. */
 export interface AnnotationTemplate {
   segmentationId: string;
   segmentIndex: number;
+  /** The viewport's. */
   element: unknown;
   FrameOfReferenceUID: string;
   [key: string]: unknown;
@@ -44,24 +44,27 @@ export interface Viewport {
   element: unknown;
   getVolumeId?(): string;
   getFrameOfReferenceUID(): string;
-  getCamera(): { viewPlaneNormal: [number, number, number] };
-  getSlicesClippingPlanes?(): { sliceIndex: number; planes: { origin: [number, number, number]; normal: [number, number, number] }[] }[];
+  getCamera(): { viewPlaneNormal?: ArrayLike<number> };
+  getSlicesClippingPlanes?(): { sliceIndex: number; planes: { origin: ArrayLike<number> }[] }[];
 }
 
-export interface Geometry {
-  data: { points: ArrayLike<number>; polys: ArrayLike<number>; segmentIndex: number };
+/** Points of three numbers; polygons: how many points, then which. */
+export interface SurfaceData {
+  points: ArrayLike<number>;
+  polys: ArrayLike<number>;
+  segmentIndex: number;
 }
 
 export interface Cornerstone {
   core: {
-    cache: { getVolume(id: string): ImageVolume | undefined; getGeometry(id: string): Geometry | undefined };
+    cache: { getVolume(id: string): ImageVolume | undefined; getGeometry(id: string): { data: object } | undefined };
     volumeLoader: { createAndCacheDerivedLabelmapVolume(volumeId: string, options?: object): ImageVolume };
     geometryLoader: { createAndCacheGeometry(id: string, options: object): unknown };
     utilities: { uuidv4(): string };
     Enums: { GeometryType: { SURFACE: string } };
   };
   tools: {
-    annotation: { state: { getAnnotation(uid: string): Annotation | undefined; addAnnotation(annotation: Annotation, element: unknown): void } };
+    annotation: { state: { getAnnotation(uid: string): Annotation | undefined; addAnnotation(annotation: object, element: never): unknown } };
     segmentation: {
       state: { getSegmentation(id: string): Segmentation | undefined };
       config: { color: { getSegmentIndexColor(viewportId: string, segmentationId: string, segmentIndex: number): number[] | null } };

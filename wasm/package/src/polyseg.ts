@@ -2,12 +2,12 @@
 // kontur as Cornerstone3D's polySeg add-on: cornerstoneTools.init({ addons: { polySeg: konturPolySeg(...) } }). It makes label maps
 // and surfaces of contours, and contours of surfaces; what starts from a label map is left to another add-on.
 import { addContours, annotationsOf, contoursOf, fillFromContours, segmentationOf, segmentsOf } from "./cornerstone_contours.js";
-import type { Cornerstone, Viewport } from "./cornerstone_types.js";
+import type { Cornerstone, SurfaceData, Viewport } from "./cornerstone_types.js";
 import { type Engine, segmented } from "./engine.js";
 import { KonturError, type Mesh, type Plane, type Polyline } from "./types.js";
 
 type Asked = { segmentIndices?: number[]; viewport?: Viewport };
-type Surface = { id: string; points: ArrayLike<number>; polys: ArrayLike<number>; segmentIndex: number };
+type Surface = SurfaceData & { id: string };
 /** Points of three numbers, and lines: how many points, then which. */
 type Cut = { points: number[]; lines: number[]; numberOfCells: number };
 type Cuts = Map<number, Map<string, Cut>>;
@@ -145,10 +145,10 @@ function knownSurfaces(cs: Cornerstone, id: string, asked: Asked): Surface[] {
   return surfaces.filter(({ segmentIndex }) => indicesOf(asked)?.includes(segmentIndex) ?? true);
 }
 
-function dataOf(cs: Cornerstone, geometryId: string): Omit<Surface, "id"> {
+function dataOf(cs: Cornerstone, geometryId: string): SurfaceData {
   const geometry = cs.core.cache.getGeometry(geometryId);
   if (!geometry) throw new KonturError("invalid_input", `there is no geometry ${geometryId}`);
-  const { points, polys, segmentIndex } = geometry.data;
+  const { points, polys, segmentIndex } = geometry.data as SurfaceData;
   return { points, polys, segmentIndex };
 }
 
@@ -165,8 +165,8 @@ function trianglesOf(polys: ArrayLike<number>): Uint32Array {
 
 async function cutsOf(kontur: Engine, surfaces: Surface[], viewport: Viewport): Promise<Cuts> {
   const slices = viewport.getSlicesClippingPlanes?.() ?? [];
-  const { viewPlaneNormal: normal } = viewport.getCamera();
-  const planes = slices.map(({ planes: [near, far] }) => ({ normal, origin: between(near!, far ?? near!) }));
+  const normal = normalOf(viewport);
+  const planes = slices.map(({ planes: [near, far] }) => ({ normal, origin: between(near!.origin, (far ?? near!).origin) }));
   const cuts: Cuts = new Map();
   for (const { segmentIndex, points, polys } of surfaces) {
     const found = await kontur.outlines({ points: Float32Array.from(points), triangles: trianglesOf(polys) }, planes);
@@ -176,9 +176,15 @@ async function cutsOf(kontur: Engine, surfaces: Surface[], viewport: Viewport): 
   return cuts;
 }
 
-/** Of the two planes of a slab. */
-function between(near: Plane, far: Plane): Plane["origin"] {
-  return near.origin.map((value, axis) => (value + far.origin[axis]!) / 2) as Plane["origin"];
+function normalOf(viewport: Viewport): Plane["normal"] {
+  const { viewPlaneNormal } = viewport.getCamera();
+  if (!viewPlaneNormal) throw new KonturError("invalid_input", `viewport ${viewport.id} has no plane`);
+  return Array.from(viewPlaneNormal) as Plane["normal"];
+}
+
+/** The middle of a slab. */
+function between(near: ArrayLike<number>, far: ArrayLike<number>): Plane["origin"] {
+  return [0, 1, 2].map((axis) => (near[axis]! + far[axis]!) / 2) as Plane["origin"];
 }
 
 function cutOf(found: Polyline[]): Cut {
@@ -206,7 +212,7 @@ function linesOf({ points, lines }: Cut): Polyline[] {
 }
 
 function addCuts(cs: Cornerstone, found: Map<number, Cut[]>, viewport: Viewport, segmentationId: string): Map<number, Set<string>> {
-  const normal = viewport.getCamera().viewPlaneNormal;
+  const normal = normalOf(viewport);
   const template = { element: viewport.element, FrameOfReferenceUID: viewport.getFrameOfReferenceUID(), segmentationId };
   return new Map(
     [...found].map(([segmentIndex, cuts]) => {

@@ -105,6 +105,20 @@ describe("label maps", () => {
   });
 });
 
+test("the phantom tells its truth, and shows it in its CT", () => {
+  const made = kontur.segment(request("kidney_radial6"));
+  const truth = kontur.phantomTruth("kidney_radial6", made.grid);
+  const both = truth.reduce((sum, value, n) => sum + value * made.mask[n], 0);
+  const dice = (2 * both) / (truth.reduce((sum, value) => sum + value, 0) + made.report.mask.voxels);
+  assert.ok(dice > 0.99, `${dice}`);
+  const image = kontur.phantomImage(made.grid);
+  const mean = (inside) =>
+    image.reduce((sum, hu, n) => sum + (truth[n] === inside ? hu : 0), 0) / truth.reduce((sum, value) => sum + (value === inside ? 1 : 0), 0);
+  assert.ok(image instanceof Int16Array && mean(1) > 150 && mean(0) < 100, `${mean(1)} HU inside, ${mean(0)} outside`);
+  assert.throws(() => kontur.phantomTruth("kidney", made.grid), { name: "KonturError", kind: "invalid_input", message: /kidney_radial6/ });
+  made.free();
+});
+
 test("a mesh of anyone's is cut by planes", () => {
   const points = Float32Array.from([0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2]);
   const triangles = Uint32Array.from([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);

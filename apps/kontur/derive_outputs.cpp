@@ -115,6 +115,7 @@ std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const Der
             outlines.name = one.name;
             outlines.attributes = sources.attributes[n];
             outlines.attributes.number.reset();
+            outlines.attributes.review = {.comment = outlines.attributes.review.comment};  // nobody has seen these outlines
             all.push_back({one.mask, std::move(outlines), false});
         }
     for (DerivedStructure& one : made) {

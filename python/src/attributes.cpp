@@ -63,10 +63,70 @@ value : float
     picklable(property, [](const PhysicalProperty& p) { return py::make_tuple(p.property, p.value); });
 }
 
+void bind_approval(py::module_& m) {
+    py::class_<Approval> approval(m, "Approval", R"(That somebody takes a structure as it is for right. Immutable.
+
+Parameters
+----------
+by : str
+    A name; empty where a file names nobody.
+at : str
+    Local time, as '2026-11-30T21:02:43'; empty where a file has none.
+)");
+    constructor(
+        approval,
+        [](std::string by, std::string at) {
+            return Approval{std::move(by), std::move(at)};
+        },
+        py::arg("by") = "", py::arg("at") = "");
+    approval.def_readonly("by", &Approval::by, "str: may be empty.");
+    approval.def_readonly("at", &Approval::at, "str: local time; may be empty.");
+    approval.def(
+        "__eq__", [](const Approval& a, const Approval& b) { return a == b; }, py::is_operator());
+    approval.def("__repr__", [](const Approval& a) { return py::str("<Approval by {!r} at {}>").format(a.by, a.at); });
+    picklable(approval, [](const Approval& a) { return py::make_tuple(a.by, a.at); });
+}
+
+void bind_review(py::module_& m) {
+    bind_approval(m);
+    py::class_<Review> review(m, "Review", R"(What reviewers said of a structure. Immutable.
+
+Parameters
+----------
+approved : Approval, optional
+    None: nobody approved it as it is.
+comment : str
+locked : bool
+    Whether no edit is to change it.
+
+Examples
+--------
+>>> review = kontur.Review(kontur.Approval("Doe", "2026-11-30T21:02:43"), comment="cropped to the body")
+>>> kontur.StructureAttributes(review=review).review.approved.by
+'Doe'
+)");
+    constructor(
+        review,
+        [](std::optional<Approval> approved, std::string comment, bool locked) {
+            return Review{std::move(approved), std::move(comment), locked};
+        },
+        py::arg("approved") = py::none(), py::arg("comment") = "", py::arg("locked") = false);
+    review.def_readonly("approved", &Review::approved, "Approval, or None.");
+    review.def_readonly("comment", &Review::comment, "str: in words; may be empty.");
+    review.def_readonly("locked", &Review::locked, "bool: no edit is to change it.");
+    review.def(
+        "__eq__", [](const Review& a, const Review& b) { return a == b; }, py::is_operator());
+    review.def("__repr__", [](const Review& r) {
+        return py::str("<Review approved={!r} comment={!r} locked={}>").format(r.approved, r.comment, r.locked);
+    });
+    picklable(review, [](const Review& r) { return py::make_tuple(r.approved, r.comment, r.locked); });
+}
+
 StructureAttributes attributes_from(std::optional<std::array<std::uint8_t, 3>> color, std::string interpreted_type,
                                     std::string generation_algorithm, std::string description,
                                     std::optional<std::int64_t> number, std::optional<CodedConcept> category,
-                                    std::optional<CodedConcept> code, std::vector<PhysicalProperty> physical_properties) {
+                                    std::optional<CodedConcept> code, std::vector<PhysicalProperty> physical_properties,
+                                    std::optional<Review> review) {
     return {color,
             std::move(interpreted_type),
             std::move(generation_algorithm),
@@ -74,7 +134,8 @@ StructureAttributes attributes_from(std::optional<std::array<std::uint8_t, 3>> c
             number,
             std::move(category),
             std::move(code),
-            std::move(physical_properties)};
+            std::move(physical_properties),
+            std::move(review).value_or(Review{})};
 }
 
 }  // namespace
@@ -82,6 +143,7 @@ StructureAttributes attributes_from(std::optional<std::array<std::uint8_t, 3>> c
 void bind_attributes(py::module_& m) {
     bind_code(m);
     bind_property(m);
+    bind_review(m);
     using Attributes = StructureAttributes;
     py::class_<Attributes> type(m, "StructureAttributes",
                                 R"(What files say about a structure beside its name and where it is.
@@ -101,6 +163,7 @@ number : int, optional
 category, code : CodedConcept, optional
     What sort of thing it is, and what it is.
 physical_properties : sequence of PhysicalProperty
+review : Review, optional
 
 Examples
 --------
@@ -111,7 +174,7 @@ Examples
     constructor(type, &attributes_from, py::arg("color") = py::none(), py::arg("interpreted_type") = "",
                 py::arg("generation_algorithm") = "", py::arg("description") = "", py::arg("number") = py::none(),
                 py::arg("category") = py::none(), py::arg("code") = py::none(),
-                py::arg("physical_properties") = py::tuple());
+                py::arg("physical_properties") = py::tuple(), py::arg("review") = py::none());
     type.def_readonly("color", &Attributes::color, "list of 3 int (red, green, blue, 0 to 255), or None.");
     type.def_readonly("interpreted_type", &Attributes::interpreted_type, "str: 'GTV', 'ORGAN', ...; may be empty.");
     type.def_readonly("generation_algorithm", &Attributes::generation_algorithm, "str: may be empty.");
@@ -120,6 +183,7 @@ Examples
     type.def_readonly("category", &Attributes::category, "CodedConcept, or None: what sort of thing it is.");
     type.def_readonly("code", &Attributes::code, "CodedConcept, or None: what it is.");
     type.def_readonly("physical_properties", &Attributes::physical_properties, "list of PhysicalProperty");
+    type.def_readonly("review", &Attributes::review, "Review: what reviewers said of it.");
     type.def(
         "__eq__", [](const Attributes& a, const Attributes& b) { return a == b; }, py::is_operator());
     type.def("__repr__", [](const Attributes& a) {
@@ -127,7 +191,7 @@ Examples
     });
     picklable(type, [](const Attributes& a) {
         return py::make_tuple(a.color, a.interpreted_type, a.generation_algorithm, a.description, a.number, a.category,
-                              a.code, a.physical_properties);
+                              a.code, a.physical_properties, a.review);
     });
 }
 

@@ -351,7 +351,8 @@ def test_values_can_be_copied_and_pickled(case, kidney, clone):
     assert clone(case.grid) == case.grid
     assert clone(case.contours) == case.contours
     about = kontur.StructureAttributes((1, 2, 255), "GTV", "MANUAL", "in words", 7, kontur.CodedConcept("1", "SCT", "a"),
-                                       kontur.CodedConcept("2", "SCT"), [kontur.PhysicalProperty("REL_ELEC_DENSITY", 1.2)])
+                                       kontur.CodedConcept("2", "SCT"), [kontur.PhysicalProperty("REL_ELEC_DENSITY", 1.2)],
+                                       kontur.Review(kontur.Approval("Doe", "2026-11-30T21:02:43"), "to the rim", True))
     told = kontur.ContourSet(case.contours.contours, attributes=about)
     assert clone(about) == about and clone(told).attributes == told[::2].attributes == about and told != case.contours
     assert numpy.array_equal(clone(kidney.mask).values, kidney.mask.values)

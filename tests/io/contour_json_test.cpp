@@ -316,7 +316,8 @@ TEST_F(ContourJson, KeepsWhatFilesSayOfTheStructure) {
                       .number = 17,
                       .category = {{"49755003", "SCT", "Morphologically Altered Structure"}},
                       .code = {{"4147007", "SCT", "Mass"}},
-                      .physical_properties = {{"REL_ELEC_DENSITY", 1.1}, {"EFFECTIVE_Z", 7}}};
+                      .physical_properties = {{"REL_ELEC_DENSITY", 1.1}, {"EFFECTIVE_Z", 7}},
+                      .review = {Approval{"Doe^J\xC3\xB6rg", "2026-11-30T21:02:43"}, "cropped\nto the body", true}};
     const ContourSet again = written_and_read(set);
     EXPECT_EQ(again.attributes, set.attributes);
     expect_same(again, set);
@@ -334,10 +335,17 @@ TEST_F(ContourJson, RefusesAttributesThatMakeNoSense) {
     EXPECT_EQ(refused(R"("code": {"value": "1"})"), "code: has no value or no scheme");
     EXPECT_EQ(refused(R"("physical_properties": [{"property": "A", "value": null}])"),
               "physical_properties: item 1: the value is null, not a number");
+    EXPECT_EQ(refused(R"("review": true)"), "review: is no object");
+    EXPECT_EQ(refused(R"("review": {"approved": "Doe"})"), "review: approved: is no object");
+    EXPECT_EQ(refused(R"("review": {"approved": {"by": "Doe", "at": "yesterday"}})"),
+              "review: approved: 'at' is \"yesterday\", not a time like 2026-11-30T21:02:43");
+    EXPECT_NE(refused(R"("review": {"locked": 1})").find("locked"), std::string::npos);
     ContourSet set = read(kSmall);
     set.attributes.physical_properties = {{"A", std::numeric_limits<double>::infinity()}};
     EXPECT_THROW(written_and_read(set), Error);
     set.attributes = {.description = "Leb\xe4r"};
+    EXPECT_THROW(written_and_read(set), Error);
+    set.attributes = {.review = {.approved = Approval{"J\xf6rg", ""}}};
     EXPECT_THROW(written_and_read(set), Error);
 }
 

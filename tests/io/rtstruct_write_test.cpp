@@ -211,6 +211,30 @@ TEST_F(WriteRtstruct, NumbersRoisAsTheirAttributesSayWhereTheNumberIsFree) {
     EXPECT_KONTUR_ERROR(write_rtstruct(path(), set, series_), ErrorKind::invalid_input, "a ROI has the number 2147483648");
 }
 
+TEST_F(WriteRtstruct, IsApprovedIfAllOfItIsByWhoDidSoLast) {
+    use_images("axial");
+    StructureSet set{"", {holes(), holes()}};
+    const auto review = [&](std::size_t n) -> Review& { return set.rois[n].contours.attributes.review; };
+    review(0) = {Approval{"Doe^Jane", "2026-11-30T21:02:43"}, "cropped\nto the body", true};
+    std::vector<std::string> notes = write_rtstruct(path(), set, series_);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes.front(), "1 of 2 ROIs is approved; DICOM approves all or none, so the file says UNAPPROVED");
+    EXPECT_EQ(verdict().find("APPROVED"), std::string::npos);
+    for (const Roi& roi : read_rtstruct(path()).rois) EXPECT_FALSE(roi.contours.attributes.review.approved.has_value());
+    EXPECT_EQ(read_rtstruct(path()).rois.front().contours.attributes.review.comment, "cropped\nto the body");
+
+    review(1).approved = Approval{"Roe^Richard", "2026-12-01T08:00:00"};
+    notes = write_rtstruct(path(), set, series_);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes.front(),
+              "2 people approved the ROIs; DICOM has room for one, and the file names 'Roe^Richard', the last");
+    EXPECT_NE(verdict().find("APPROVED by Roe^Richard on 20261201 at 080000"), std::string::npos);
+    for (const Roi& roi : read_rtstruct(path()).rois) {
+        EXPECT_EQ(roi.contours.attributes.review.approved, review(1).approved);
+        EXPECT_FALSE(roi.contours.attributes.review.locked) << "DICOM has no room for it";
+    }
+}
+
 TEST_F(WriteRtstruct, SaysWhichAttributesDicomHasNoRoomFor) {
     use_images("axial");
     Roi roi = holes();

@@ -28,5 +28,10 @@ TEST(FittedAttributes, SayAllButHowItWasMade) {
     EXPECT_EQ(fitted, drawn);
 }
 
+TEST(FittedAttributes, AreApprovedAndLockedByNobody) {
+    const Review review{Approval{"Doe", "2026-11-30T21:02:43"}, "cropped", true};
+    EXPECT_EQ(fitted_attributes({.review = review}).review, (Review{.comment = "cropped"}));
+}
+
 }  // namespace
 }  // namespace kontur

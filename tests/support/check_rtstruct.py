@@ -2,8 +2,8 @@
 """check_rtstruct.py FILE IMAGES: what pydicom and dciodvfy say about a structure set made on the images in a folder.
 
 Fails when a reference leads nowhere, a contour does not lie on the slice that it names, a count is wrong, or dciodvfy finds
-an error. Prints a line "NUMBER NAME TYPE ALGORITHM R,G,B" for each ROI, lines for its
-description, code and physical properties where it has them, and one "GEOMETRY POINTS ENCLOSED_MM2 SLICE_OR_-" for
+an error. Prints "APPROVED by NAME on DATE at TIME" if it is, a line "NUMBER NAME TYPE ALGORITHM R,G,B" for each ROI, lines for its
+description, code, comment and physical properties where it has them, and one "GEOMETRY POINTS ENCLOSED_MM2 SLICE_OR_-" for
 each of its contours.
 """
 
@@ -39,6 +39,12 @@ def enclosed_mm2(points):
     return np.linalg.norm(np.cross(points - points[0], np.roll(points, -1, axis=0) - points[0]).sum(axis=0)) / 2
 
 
+if structures.ApprovalStatus == "APPROVED":
+    print(f"APPROVED by {structures.ReviewerName} on {structures.ReviewDate} at {structures.ReviewTime}")
+else:
+    assert structures.ApprovalStatus == "UNAPPROVED"
+    assert not {"ReviewerName", "ReviewDate", "ReviewTime"} & set(structures.dir("Review")), "nobody reviewed it"
+
 contours_of = {r.ReferencedROINumber: r for r in structures.ROIContourSequence}
 observation_of = {o.ReferencedROINumber: o for o in structures.RTROIObservationsSequence}
 type_of = {number: o.RTROIInterpretedType for number, o in observation_of.items()}
@@ -51,6 +57,8 @@ for roi in structures.StructureSetROISequence:
         print("DESCRIPTION", roi.ROIDescription)
     for code in observation_of[roi.ROINumber].get("RTROIIdentificationCodeSequence", []):
         print("CODE", code.CodeValue, code.CodingSchemeDesignator, code.CodeMeaning)
+    if "ROIObservationDescription" in observation_of[roi.ROINumber]:
+        print("COMMENT", observation_of[roi.ROINumber].ROIObservationDescription)
     for one in observation_of[roi.ROINumber].get("ROIPhysicalPropertiesSequence", []):
         print("PROPERTY", one.ROIPhysicalProperty, one.ROIPhysicalPropertyValue)
     for contour in stored.get("ContourSequence", []):

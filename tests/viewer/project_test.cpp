@@ -251,7 +251,7 @@ TEST(Project, FilesOfOthersAreRefusedAsTheyAre) {
     EXPECT_EQ(bytes_of(path), foreign);
     std::filesystem::remove(path);
     { const Project project(path, kImage); }
-    { Database(path).run("PRAGMA user_version = 5; PRAGMA journal_mode = WAL"); }
+    { Database(path).run("PRAGMA user_version = 6; PRAGMA journal_mode = WAL"); }
     const std::string newer = bytes_of(path);
     EXPECT_KONTUR_ERROR(Project(path, kImage), ErrorKind::unsupported, "newer kontur");
     EXPECT_EQ(bytes_of(path), newer);
@@ -334,7 +334,7 @@ TEST(Project, RowsThatMakeNoSenseAreRefusedBySentence) {
     }
     std::filesystem::remove(path);
     { const Project project(path, kImage); }
-    { Database(path).run("PRAGMA user_version = 5"); }
+    { Database(path).run("PRAGMA user_version = 6"); }
     EXPECT_KONTUR_ERROR(Project(path, {}), ErrorKind::unsupported, "newer kontur");
 }
 

@@ -58,6 +58,7 @@ std::vector<FittedStructure> fit_derived(const RuleMembers& members, const std::
         FittedStructure one{structure_of(state, members.made[n]), std::move(made[n].outlines), {}, false, {}, true};
         one.set.attributes = derived_attributes(made[n]);
         one.set.attributes.color = rgb8(one.structure.color);
+        one.set.attributes.review = one.structure.attributes.review;
         one.made.mask = std::move(made[n].mask);
         one.made.mesh = std::move(surfaces[n]);
         one.made.report.mask_voxels = std::ranges::count(one.made.mask.values, 1);

@@ -73,11 +73,24 @@ ContourSet traced(const Mask& mask, const Upload& request) {
     return trace(mask, planes, kTraceOptions);
 }
 
+/// Somebody approved the outlines, not the surface that is fitted to them here.
+void forget_approvals(StructureSet& set, std::vector<std::string>& notes) {
+    for (Roi& roi : set.rois) {
+        auto& approved = roi.contours.attributes.review.approved;
+        if (approved && &roi == &set.rois.front())
+            notes.push_back(fmt::format("{} approved the outlines of this file; here they are not approved, as kontur makes a "
+                                        "surface of its own of them",
+                                        approved->by.empty() ? "Somebody" : approved->by));
+        approved.reset();
+    }
+}
+
 /// Every region that has contours.
 ImportContent read_rtstruct_of(const fs::path& path) {
     ImportContent imported;
     StructureSet set = read_rtstruct(path);
     imported.notes = std::move(set.notes);
+    forget_approvals(set, imported.notes);
     for (Roi& roi : set.rois) {
         if (!roi.damage.empty()) imported.notes.push_back("left out: " + roi.damage);
         for (const std::string& note : roi.notes) imported.notes.push_back(roi.name + ": " + note);

@@ -167,6 +167,7 @@ std::vector<std::string> write_regions(const fs::path& path, const All& all, con
                                                           : slice_contours(one.made.mask, one.made.function, work);
         roi.contours.name = one.structure.name;
         roi.contours.attributes = fitted_attributes(one.set.attributes);
+        roi.contours.attributes.review = one.set.attributes.review;  // of what is seen in the page, and written here
         set.rois.push_back(std::move(roi));
     }
     WriteRtstructOptions options;

@@ -122,7 +122,12 @@ json to_json(const Structure& s) {
     if (s.label_value) told["label_value"] = *s.label_value;
     if (s.mask) told["mask"] = to_json(*s.mask);
     if (s.rule) told["rule"] = *s.rule;
-    if (s.attributes != StructureAttributes{}) told["attributes"] = json::parse(to_json(s.attributes));
+    if (s.attributes != StructureAttributes{}) {
+        json attributes = json::parse(to_json(s.attributes));
+        if (attributes.contains("review")) told["review"] = std::move(attributes["review"]);
+        attributes.erase("review");
+        if (!attributes.empty()) told["attributes"] = std::move(attributes);
+    }
     for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
     for (const SurfacePoint& point : s.surface_points) told["surface_points"].push_back(to_json(point));
     if (!s.interior.empty()) told["interior"] = to_json(s.interior);
@@ -330,7 +335,9 @@ Structure structure_from_json(const json& value) {
     if (m.has("rule")) structure.rule = m.text("rule", kMostRuleBytes);
     if (structure.rule && name_made(*structure.rule) != structure.name)
         refuse(fmt::format("the rule {} does not make {}", *structure.rule, structure.name));
-    if (m.has("attributes")) structure.attributes = attributes_from_json(m.at("attributes").dump());
+    json attributes = m.has("attributes") ? m.at("attributes") : json::object();
+    if (m.has("review")) attributes["review"] = m.at("review");
+    structure.attributes = attributes_from_json(attributes.dump());
     return structure;
 }
 

@@ -26,6 +26,7 @@ Calls motion_calls();
 Calls page_calls();
 Calls point_calls();
 Calls proposal_calls();
+Calls review_calls();
 Calls rule_calls();
 Calls second_image_calls();
 Calls structure_calls();

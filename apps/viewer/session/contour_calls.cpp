@@ -15,6 +15,7 @@
 #include "viewer/session/events.h"
 #include "viewer/session/history.h"
 #include "viewer/session/page_json.h"
+#include "viewer/session/reviews.h"
 
 // Calls that draw contours and change them.
 
@@ -147,6 +148,7 @@ void forget_plane(const SessionState& s, const DrawnContour& contour, Commit& st
 /// Stores a new or changed contour, or only shows it when the call is a draft.
 json put(SessionState& s, const std::string& label, DrawnContour contour, const Members& m) {
     check_is_drawn(s.project.state(), contour.structure);
+    if (m.flag_or("draft", false)) check_is_unlocked(structure_of(s.project.state(), contour.structure));
     std::vector<DrawnContour> carried = carried_with(s, contour);
     json result{{"contour", PageJson()(contour)}, {"carried", json::array()}};
     for (const DrawnContour& other : carried) result["carried"].push_back(PageJson()(other));

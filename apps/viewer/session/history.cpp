@@ -13,6 +13,7 @@
 #include "viewer/session/events.h"
 #include "viewer/session/moving_task.h"
 #include "viewer/session/page_json.h"
+#include "viewer/session/reviews.h"
 
 // Steps of the history, the draft of the moving hand, and the surfaces that follow both.
 
@@ -142,9 +143,11 @@ Calls history_calls() { return {{"draft.drop", {drop_draft}}, {"undo", {undo}}, 
 
 void follow(SessionState& s, Id structure) { s.surfaces.follow(surface_task(s, structure)); }
 
-void commit(SessionState& s, const Commit& step) {
-    check_is_drawn(s.project.state(), step);
-    std::set<Id> touched = touched_surfaces(s, step);
+void commit(SessionState& s, const Commit& given) {
+    check_is_drawn(s.project.state(), given);
+    check_is_unlocked(s.project.state(), given);
+    std::set<Id> touched = touched_surfaces(s, given);
+    const auto [step, taken_back] = without_approvals(s, given, touched);
     touched.merge(drafted(s));
     s.draft.reset();
     try {
@@ -155,16 +158,19 @@ void commit(SessionState& s, const Commit& step) {
     }
     s.surfaces.outdate(touched);
     if (!step.is_empty()) tell_changes(s, step);
+    for (const std::string& sentence : taken_back) s.pages.notice("warning", sentence);
     follow_touched(s, step, touched);
 }
 
 void commit_ahead(SessionState& s, const Commit& step) {
     check_is_drawn(s.project.state(), step);
+    check_is_unlocked(s.project.state(), step);
     const DrawnContour& contour = *step.contours.front().after;
     const bool stays = !step.contours.front().before || step.contours.front().before->structure == contour.structure;
     const bool is_other_draft =
         s.draft && (s.draft->contour.id != contour.id || s.draft->contour.structure != contour.structure);
-    if (!stays || is_other_draft || step.contours.size() > 1 || (s.draft && !s.draft->carried.empty()))
+    const bool is_reviewed = !without_approvals(s, step, {contour.structure}).taken_back.empty();
+    if (!stays || is_other_draft || is_reviewed || step.contours.size() > 1 || (s.draft && !s.draft->carried.empty()))
         return commit(s, step);
     // What the hand released is most often what it showed last, and then its surface is here already, or on its way.
     const bool is_followed = s.draft ? same_surface(s.draft->contour, contour) : touched_surfaces(s, step).empty();

@@ -142,6 +142,7 @@ json freeze(SessionState& s, const Members& m) {
     after.mask = StructureMask{.hash = mask->hash(), .source = "kontur derive"};
     after.attributes = fit->set.attributes;
     after.attributes.color.reset();
+    after.attributes.review = before.attributes.review;
     const std::scoped_lock lock(s.mutex);
     if (structure_of(s.project.state(), before.id) != before)
         throw Error(ErrorKind::invalid_input,

@@ -21,7 +21,8 @@ constexpr int kVersion = 1;                 // of a project without masks, which
 constexpr int kVersionWithMasks = 2;        // the table is made with the first one
 constexpr int kVersionWithTimes = 3;        // since the first contour of another time; older ones would take it for any
 constexpr int kVersionWithRules = 4;  // since the first structure that a rule makes; older ones would see nothing of it
-constexpr int kNewestVersion = kVersionWithRules;
+constexpr int kVersionWithReviews = 5;  // since something was first said in review; older ones would change what is locked
+constexpr int kNewestVersion = kVersionWithReviews;
 
 constexpr const char* kSchema =
     "CREATE TABLE setting (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
@@ -371,7 +372,9 @@ void Project::store_version(const Commit& commit) {
     for (const auto& change : commit.contours)
         if (change.after && change.after->time) needed = kVersionWithTimes;
     for (const auto& change : commit.structures)
-        if (change.after && change.after->rule) needed = kVersionWithRules;
+        if (change.after && change.after->rule) needed = std::max(needed, kVersionWithRules);
+    for (const auto& change : commit.structures)
+        if (change.after && change.after->attributes.review != Review{}) needed = kVersionWithReviews;
     if (needed > database_.number("PRAGMA user_version"))
         database_.run(fmt::format("{} PRAGMA user_version = {};", kMaskTable, needed).c_str());
 }

@@ -8,6 +8,8 @@ namespace kontur {
 
 StructureAttributes fitted_attributes(StructureAttributes attributes) {
     attributes.generation_algorithm = "SEMIAUTOMATIC";
+    attributes.review.approved.reset();
+    attributes.review.locked = false;
     return attributes;
 }
 

@@ -26,6 +26,23 @@ struct PhysicalProperty {
     friend bool operator==(const PhysicalProperty&, const PhysicalProperty&) = default;
 };
 
+/// That somebody has looked at a structure as it is and takes it for right.
+struct Approval {
+    std::string by{};  ///< a name; empty where a file names nobody
+    std::string at{};  ///< local time, as in "2026-11-30T21:02:43"; empty where a file has none
+
+    friend bool operator==(const Approval&, const Approval&) = default;
+};
+
+/// What reviewers said of a structure.
+struct Review {
+    std::optional<Approval> approved{};  ///< unset: nobody approved it as it is
+    std::string comment{};               ///< in words; may be empty
+    bool locked = false;                 ///< whether no edit is to change it
+
+    friend bool operator==(const Review&, const Review&) = default;
+};
+
 /// What files say about a structure beside its name and where it is. kontur carries it from file to file and computes
 /// nothing with it.
 struct StructureAttributes {
@@ -37,11 +54,13 @@ struct StructureAttributes {
     std::optional<CodedConcept> category{};              ///< what sort of thing it is, such as tissue
     std::optional<CodedConcept> code{};                  ///< what it is, such as the liver
     std::vector<PhysicalProperty> physical_properties{};
+    Review review{};
 
     friend bool operator==(const StructureAttributes&, const StructureAttributes&) = default;
 };
 
-/// What a structure says whose surface was fitted to what was drawn: the same, but for how it was made.
+/// What a structure says whose surface was fitted to what was drawn: the same, but for how it was made. Nobody has approved
+/// or locked what was made now.
 StructureAttributes fitted_attributes(StructureAttributes drawn);
 
 /// A colour of levels from 0 to 1, which are cut to that, as bytes; to the nearest.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/contours/attributes_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/json_file.h"
@@ -50,6 +52,36 @@ std::vector<PhysicalProperty> read_properties(const json& list) {
     return properties;
 }
 
+/// As in "2026-11-30T21:02:43".
+bool is_local_time(const std::string& text) {
+    constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:dd";
+    return std::ranges::equal(text, kForm, [](char c, char form) { return form == 'd' ? c >= '0' && c <= '9' : c == form; });
+}
+
+Approval read_approval(const json& value) {
+    if (!value.is_object()) corrupt("is no object");
+    const Approval approval{text_member(value, "by", ""), text_member(value, "at", "")};
+    if (!approval.at.empty() && !is_local_time(approval.at))
+        corrupt(fmt::format("'at' is {}, not a time like 2026-11-30T21:02:43", quoted(value["at"])));
+    return approval;
+}
+
+Review read_review(const json& value) {
+    if (!value.is_object()) corrupt("is no object");
+    Review review{.comment = text_member(value, "comment", ""), .locked = flag_member(value, "locked", false)};
+    if (value.contains("approved"))
+        review.approved = in_context("approved", [&] { return read_approval(value["approved"]); });
+    return review;
+}
+
+ordered_json to_object(const Review& review) {
+    ordered_json object = ordered_json::object();
+    if (review.approved) object["approved"] = {{"by", review.approved->by}, {"at", review.approved->at}};
+    if (!review.comment.empty()) object["comment"] = review.comment;
+    if (review.locked) object["locked"] = true;
+    return object;
+}
+
 ordered_json to_object(const CodedConcept& code) {
     return {{"value", code.value}, {"scheme", code.scheme}, {"meaning", code.meaning}};
 }
@@ -63,6 +95,8 @@ ordered_json to_object(const PhysicalProperty& one) {
 void check_texts(const StructureAttributes& a) {
     for (const std::string* text : {&a.interpreted_type, &a.generation_algorithm, &a.description})
         check_utf8(*text, "what is said of a structure,");
+    check_utf8(a.review.comment, "a comment");
+    if (a.review.approved) check_utf8(a.review.approved->by, "the name of who approved");
     for (const auto* code : {&a.category, &a.code})
         if (*code)
             for (const std::string* text : {&(*code)->value, &(*code)->scheme, &(*code)->meaning})
@@ -85,6 +119,7 @@ StructureAttributes read_attributes(const json& document) {
     read("category", attributes.category, read_code);
     read("code", attributes.code, read_code);
     read("physical_properties", attributes.physical_properties, read_properties);
+    read("review", attributes.review, read_review);
     return attributes;
 }
 
@@ -99,6 +134,7 @@ ordered_json attribute_members(const StructureAttributes& attributes) {
     if (attributes.category) all["category"] = to_object(*attributes.category);
     if (attributes.code) all["code"] = to_object(*attributes.code);
     for (const PhysicalProperty& one : attributes.physical_properties) all["physical_properties"].push_back(to_object(one));
+    if (attributes.review != Review{}) all["review"] = to_object(attributes.review);
     return all;
 }
 

@@ -68,6 +68,7 @@ void read_observation(DcmItem& observation, StructureAttributes& attributes, std
     if (const std::string type = text(observation, DCM_RTROIInterpretedType); !type.empty())
         attributes.interpreted_type = type;
     if (const auto code = dcmtk::read_code(observation, DCM_RTROIIdentificationCodeSequence)) attributes.code = code;
+    attributes.review.comment = dcmtk::lines(observation, DCM_ROIObservationDescription);
     read_properties(observation, attributes, notes);
 }
 
@@ -77,6 +78,8 @@ StructureAttributes storable(StructureAttributes attributes, const std::string& 
     attributes.generation_algorithm = keyword(attributes.generation_algorithm, of_roi("generation algorithm"), notes);
     attributes.description =
         dcmtk::noted_text(attributes.description, dcmtk::kMostTextCharacters, of_roi("description"), notes);
+    attributes.review.comment =
+        dcmtk::noted_text(attributes.review.comment, dcmtk::kMostTextCharacters, of_roi("comment"), notes);
     if (attributes.code) attributes.code = dcmtk::storable(*attributes.code, of_roi("code"), notes);
     for (PhysicalProperty& one : attributes.physical_properties) {
         one.property = keyword(one.property, of_roi("physical property"), notes);
@@ -101,6 +104,7 @@ void put_observation(DcmItem& observation, const StructureAttributes& attributes
     if (attributes.code) dcmtk::put_code(observation, DCM_RTROIIdentificationCodeSequence, *attributes.code);
     put(observation, DCM_RTROIInterpretedType, attributes.interpreted_type);
     put(observation, DCM_ROIInterpreter, "");
+    if (!attributes.review.comment.empty()) put(observation, DCM_ROIObservationDescription, attributes.review.comment);
     for (const PhysicalProperty& one : attributes.physical_properties) {
         DcmItem& item = append_item(observation, DCM_ROIPhysicalPropertiesSequence);
         put(item, DCM_ROIPhysicalProperty, one.property);

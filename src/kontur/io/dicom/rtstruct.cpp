@@ -16,6 +16,7 @@
 #include "kontur/io/dicom/dicom_header.h"
 #include "kontur/io/dicom/roi_attributes.h"
 #include "kontur/io/dicom/roi_contours.h"
+#include "kontur/io/dicom/rtstruct_approval.h"
 
 namespace kontur {
 namespace {
@@ -158,6 +159,7 @@ StructureSet read_structure_set(DcmItem& dataset) {
     set.rois = read_roi_list(dataset);
     read_all_contours(set, dataset);
     read_observations(set, dataset);
+    read_approval(dataset, set);
     return set;
 }
 

@@ -39,8 +39,8 @@ bool is_rtstruct(const std::filesystem::path& path);
 /// open contours, POINT ones points on the surface, with a note each. OPEN_NONPLANAR contours, repeated ones and those
 /// without area are left out, with a note each; a contour is repeated by another through the same points, rounded to 0.001
 /// mm, whatever its start, direction and closing point. A ROI with coordinates that are no numbers, no triples or not as
-/// many as declared has `damage` and no contours. Contours of a ROI that is not listed are left out, with a note. Throws
-/// Error(invalid_input) when the file is no RTSTRUCT.
+/// many as declared has `damage` and no contours. Contours of a ROI that is not listed are left out, with a note. The
+/// ROIs of an approved file are approved. Throws Error(invalid_input) when the file is no RTSTRUCT.
 StructureSet read_rtstruct(const std::filesystem::path& path);
 
 /// The ROI with this name or, if none has it, with this name but for case or with this number; without either, the only ROI
@@ -67,7 +67,7 @@ struct WriteRtstructOptions {
 /// these name none, or another ROI has it, the lowest free one from 1 on; frames of reference and notes are not used.
 /// Contours nested on one plane are filled even-odd, whatever their `hole` says. Coordinates are exact to 1e-9 mm. Names
 /// have room for 64 characters, none of them a backslash; two that would become equal get a number. A ROI without a name is
-/// "Structure_1" by its place: plastimatch ends at an empty name. Returns what the user
+/// "Structure_1" by its place: plastimatch ends at an empty name. The file is approved if all ROIs are. Returns what the user
 /// should know, one sentence each: names and attributes that were changed, contours that lie on no slice, and images without
 /// a frame of reference, for which a new one is named. Throws Error(invalid_input), naming ROI and contour, for open
 /// contours, fewer than 3 points, coordinates that are not finite and a hole that nothing encloses, for two ROIs with one

@@ -13,6 +13,7 @@
 #include "kontur/io/dicom/dicom_names.h"
 #include "kontur/io/dicom/roi_attributes.h"
 #include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/dicom/rtstruct_approval.h"
 #include "kontur/io/geometry/keyhole.h"
 #include "kontur/shape/contour_nesting.h"
 
@@ -251,7 +252,7 @@ std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const
         dcmtk::noted_value(set.label.empty() ? "kontur" : set.label, kMostLabel, "the structure set's label", notes));
     put(document, DCM_StructureSetDate, dcmtk::text(document, DCM_InstanceCreationDate));
     put(document, DCM_StructureSetTime, dcmtk::text(document, DCM_InstanceCreationTime));
-    put(document, DCM_ApprovalStatus, "UNAPPROVED");
+    put_approval(document, set.rois, notes);
     dcmtk::put_contribution(document, options.provenance);
     put_image_hierarchy(document, slices);
     RoiWriter writer(document, slices, options.holes);

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/reviews.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kontur/base/error.h"
+#include "viewer/model/structure_rules.h"
+
+namespace kontur::viewer {
+namespace {
+
+bool is_locked(const Structure& structure) { return structure.attributes.review.locked; }
+bool is_approved(const Structure& structure) { return structure.attributes.review.approved.has_value(); }
+
+/// Whether one structure has another name after the step; rules that name it are written anew then, and say the same.
+bool renames(const Commit& step) {
+    return std::ranges::any_of(step.structures, [](const Change<Structure>& change) {
+        return change.before && change.after && change.before->name != change.after->name;
+    });
+}
+
+/// Whether both differ by more than their looks and what reviewers say.
+bool is_edited(const Structure& before, const Structure& after, bool with_rule) {
+    Structure same = after;
+    same.color = before.color;
+    same.visible = before.visible;
+    same.attributes.review = before.attributes.review;
+    if (!with_rule) same.rule = before.rule;
+    return same != before;
+}
+
+bool is_edited(const DrawnContour& before, const DrawnContour& after, const Structure& owner) {
+    DrawnContour same = after;
+    if (counts(before, owner) == counts(after, owner)) same.visible = before.visible;
+    return same != before;
+}
+
+/// Structures that have another body after the step, or another name.
+std::set<Id> changed_by(const SessionState& s, const Commit& step, const std::set<Id>& touched) {
+    const State& state = s.project.state();
+    std::set<Id> changed;
+    if (renames(step)) {
+        for (const auto& change : step.structures)
+            if (change.before && change.after && change.before->name != change.after->name) changed.insert(change.id);
+        return changed;
+    }
+    changed = touched;
+    if (step.borders)
+        for (const auto& [id, structure] : state.structures) changed.insert(id);
+    if (state.borders.shared)
+        for (const BorderPair& pair : s.surfaces.border_pairs()) {
+            if (touched.contains(pair.first)) changed.insert(pair.second);
+            if (touched.contains(pair.second)) changed.insert(pair.first);
+        }
+    for (const Id id : std::set<Id>(changed))
+        for (const Id user : users_of(state, id)) changed.insert(user);
+    return changed;
+}
+
+/// What the step makes of the structure so far; null where it removes it.
+Structure* after_of(Commit& step, const Structure& now) {
+    const auto own = std::ranges::find(step.structures, now.id, &Change<Structure>::id);
+    if (own == step.structures.end()) return &*step.structures.emplace_back(now.id, now, now).after;
+    return own->after ? &*own->after : nullptr;
+}
+
+}  // namespace
+
+void check_is_unlocked(const Structure& structure) {
+    if (is_locked(structure))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} is locked, and stays as it is; unlock it in the list to change it", structure.name));
+}
+
+void check_is_unlocked(const State& state, const Commit& step) {
+    const bool with_rules = !renames(step);
+    for (const auto& change : step.structures)
+        if (change.before && is_locked(*change.before) &&
+            (!change.after || is_edited(*change.before, *change.after, with_rules)))
+            check_is_unlocked(*change.before);
+    for (const auto& change : step.contours)
+        for (const auto& side : {change.before, change.after}) {
+            if (!side) continue;
+            const auto owner = state.structures.find(side->structure);
+            if (owner == state.structures.end() || !is_locked(owner->second)) continue;
+            if (!change.before || !change.after || is_edited(*change.before, *change.after, owner->second))
+                check_is_unlocked(owner->second);
+        }
+}
+
+ReviewedStep without_approvals(const SessionState& s, const Commit& step, const std::set<Id>& touched) {
+    ReviewedStep reviewed{step};
+    const auto& structures = s.project.state().structures;
+    if (std::ranges::none_of(structures, [](const auto& one) { return is_approved(one.second); })) return reviewed;
+    for (const Id id : changed_by(s, step, touched)) {
+        const auto now = structures.find(id);
+        if (now == structures.end() || !is_approved(now->second)) continue;
+        Structure* const after = after_of(reviewed.step, now->second);
+        if (!after || !is_approved(*after)) continue;
+        after->attributes.review.approved.reset();
+        reviewed.taken_back.push_back(fmt::format("{} has changed, so the approval by {} is taken back; undo restores both",
+                                                  after->name, now->second.attributes.review.approved->by));
+    }
+    return reviewed;
+}
+
+}  // namespace kontur::viewer

@@ -591,6 +591,7 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
 }
 
 void add_compare(CLI::App& app, Invocation& invocation) {
+    constexpr int kMostDifferences = 100'000;  // lines that somebody may want
     Binder<CompareCommand> bind(app, invocation, "compare",
                                 "Overlap, surface distances in mm and volumes in ml of two masks",
                                 "kontur compare liver.nii.gz truth.nii.gz --json");
@@ -599,6 +600,8 @@ void add_compare(CLI::App& app, Invocation& invocation) {
     bind.word("B", c.b, "Another one on the same grid");
     bind.option("--label", c.label, "N", "The label to compare; needed when there are several");
     bind.option("--label-b", c.label_b, "N", "That of B, where it is another one [--label]");
+    bind.defaulted("--differences", c.differences, "N", "Places to list where one mask is and the other not, worst first")
+        ->check(between(0, kMostDifferences));
     bind.flag("--json", c.json, "Print JSON");
     add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.read);

@@ -20,6 +20,7 @@
 #include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
 #include "kontur/measure/compare.h"
+#include "kontur/measure/differences.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/segment.h"
 #include "kontur/sureness/candidate_planes.h"
@@ -199,6 +200,7 @@ struct CompareCommand {
     std::optional<std::int64_t> label;
     ReadImageOptions read;
     std::optional<std::int64_t> label_b, frame_b;  ///< where b's are others
+    int differences = 0;  ///< places to list, the farthest first
     bool json = false;
     int threads = 0;  ///< 0: the machine's
 };

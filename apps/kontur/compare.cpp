@@ -29,6 +29,19 @@ Facts describe(const Comparison& comparison) {
     return facts;
 }
 
+/// As many as there are up to `most`.
+Facts list_of(const std::vector<Difference>& differences, int most) {
+    Facts list = Facts::array();
+    for (const Difference& one : differences) {
+        if (std::ssize(list) == most) break;
+        list.push_back({{"only_in", one.in_first ? "a" : "b"},
+                        {"distance_mm", one.distance_mm},
+                        {"volume_ml", one.volume_ml},
+                        {"at_mm", {number(one.at.x), number(one.at.y), number(one.at.z)}}});
+    }
+    return list;
+}
+
 struct Side {
     Mask mask;
     std::optional<std::int64_t> label;  ///< of its file; unset: the mask is empty
@@ -62,6 +75,8 @@ void run(const CompareCommand& command, Console& console) {
                                             *b.label, command.b.string())});
     Facts facts = {{"label_a", label_of(a)}, {"label_b", label_of(b)}};
     facts.update(describe(compare(a.mask, b.mask, work)));
+    if (command.differences > 0)
+        facts["differences"] = list_of(differences(a.mask, b.mask, {}, work), command.differences);
     console.print(command.json ? to_json_text(facts) : to_text(facts));
 }
 

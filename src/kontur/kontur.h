@@ -52,6 +52,7 @@
 // The result beside another one, as contours, and as pictures.
 #include "kontur/extract/trace.h"
 #include "kontur/measure/compare.h"
+#include "kontur/measure/differences.h"
 #include "kontur/view/outline.h"
 #include "kontur/view/picture.h"
 #include "kontur/view/reslice.h"

@@ -31,6 +31,25 @@ def test_text_has_the_same_names_as_json(masks):
     assert [line.split()[0] for line in text.splitlines()] == list(json.loads(succeed("compare", path_a, path_b, "--json")))
 
 
+def test_differences_are_where_one_mask_is_and_the_other_not(tmp_path, masks):
+    path_a, path_b, a, b = masks
+    changed = b.copy()
+    changed[0, 0, 0:2] = 1
+    inside = numpy.argwhere(b)
+    changed[tuple(inside[len(inside) // 2])] = 0
+    path = write_nifti(tmp_path / "c.nii.gz", changed)
+    far, near = json.loads(succeed("compare", path, path_b, "--differences", 9, "--json"))["differences"]
+    away = numpy.linalg.norm(inside - [0, 0, 0], axis=1).min()
+    assert (far["only_in"], far["volume_ml"]) == ("a", 0.002)
+    assert far["distance_mm"] == pytest.approx(away)
+    assert far["at_mm"] == pytest.approx((lps_affine() @ [0, 0, 0, 1])[:3])
+    assert (near["only_in"], near["volume_ml"], near["distance_mm"]) == ("b", 0.001, pytest.approx(1))
+    assert json.loads(succeed("compare", path, path_b, "--differences", 1, "--json"))["differences"] == [far]
+    assert json.loads(succeed("compare", path_a, path_a, "--differences", 9, "--json"))["differences"] == []
+    assert "only_in" in succeed("compare", path, path_b, "--differences", 9)
+    assert kontur("compare", path, path_b, "--differences", -1).returncode == 64
+
+
 def test_a_mask_equals_itself(masks):
     found = json.loads(succeed("compare", masks[0], masks[0], "--json"))
     assert (found["dice"], found["jaccard"], found["hausdorff_mm"]) == (1, 1, 0)

@@ -5,6 +5,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/measure/compare.h"
+#include "kontur/measure/differences.h"
 #include "viewer/files/structure_exports.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/status_line.h"
@@ -13,6 +14,23 @@
 // Two structures, or two readers' drawings of one.
 
 namespace kontur::viewer {
+namespace {
+
+constexpr std::size_t kMostDifferences = 200;  ///< that somebody goes through
+
+nlohmann::json to_json(const std::vector<Difference>& all) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Difference& one : all) {
+        if (list.size() == kMostDifferences) break;
+        list.push_back({{"at", viewer::to_json(one.at)},
+                        {"distance_mm", one.distance_mm},
+                        {"volume_ml", one.volume_ml},
+                        {"in_first", one.in_first}});
+    }
+    return list;
+}
+
+}  // namespace
 
 std::string comparison_reply(SessionState& s, const Compared& compared, const StopToken& stop) {
     const auto [first, second, time] = compared;
@@ -44,6 +62,7 @@ std::string comparison_reply(SessionState& s, const Compared& compared, const St
         reply["percentile_95_mm"] = found.surface->hausdorff95_mm;
         reply["largest_mm"] = found.surface->hausdorff_mm;
     }
+    reply["differences"] = to_json(differences(fit_a->made.mask, fit_b->made.mask, {}, line.work(stop)));
     return to_text(reply);
 }
 

@@ -1,56 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/measure/compare.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
-#include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
 #include "kontur/base/point_tree.h"
+#include "kontur/measure/surface_voxels.h"
 
 namespace kontur {
 namespace {
-
-void check_same_grid(const Grid& a, const Grid& b) {
-    constexpr double kLimitMm = 1e-3;
-    const auto differ = [](const std::string& how) {
-        throw Error(ErrorKind::invalid_input, "the masks lie on different grids: " + how);
-    };
-    if (a.size != b.size)
-        differ(
-            fmt::format("{} x {} x {} and {} x {} x {} voxels", a.size.i, a.size.j, a.size.k, b.size.i, b.size.j, b.size.k));
-    const double apart = corner_distance_mm(a, b);
-    if (!(apart <= kLimitMm))
-        differ(fmt::format("corner voxels are up to {:.4g} mm apart; the limit is {:g} mm", apart, kLimitMm));
-}
-
-/// A mask's values on the grid that both masks share.
-struct Values {
-    const Grid& grid;
-    const std::vector<std::uint8_t>& inside;
-};
-
-bool is_surface(const Values& mask, std::int64_t i, std::int64_t j, std::int64_t k) {
-    const Index3& size = mask.grid.size;
-    const std::size_t at = mask.grid.offset(i, j, k);
-    const std::size_t row = static_cast<std::size_t>(size.i), slice = row * static_cast<std::size_t>(size.j);
-    const auto outside = [&](std::size_t offset) { return mask.inside[offset] == 0; };
-    return i == 0 || j == 0 || k == 0 || i + 1 == size.i || j + 1 == size.j || k + 1 == size.k || outside(at - 1) ||
-           outside(at + 1) || outside(at - row) || outside(at + row) || outside(at - slice) || outside(at + slice);
-}
-
-std::vector<Vec3> surface_points(const Values& mask) {
-    const Grid& grid = mask.grid;
-    std::vector<Vec3> points;
-    for (std::int64_t k = 0; k < grid.size.k; ++k)
-        for (std::int64_t j = 0; j < grid.size.j; ++j)
-            for (std::int64_t i = 0; i < grid.size.i; ++i)
-                if (mask.inside[grid.offset(i, j, k)] != 0 && is_surface(mask, i, j, k))
-                    points.push_back(grid.center_mm(i, j, k));
-    return points;
-}
 
 /// From each point to the nearest point of the tree, ascending.
 std::vector<double> sorted_distances(const std::vector<Vec3>& from, const PointTree& to, const Work& work) {
@@ -100,9 +59,7 @@ double ratio(std::int64_t part, std::int64_t whole) {
 }  // namespace
 
 Comparison compare(const Mask& a, const Mask& b, const Work& work) {
-    check_mask(a, "the first mask");
-    check_mask(b, "the second mask");
-    check_same_grid(a.grid, b.grid);
+    check_comparable(a, b);
     const Overlap count = count_voxels(a, b);
     const double voxel_ml = a.grid.voxel_volume_mm3() / 1000;
     Comparison result;
@@ -111,7 +68,7 @@ Comparison compare(const Mask& a, const Mask& b, const Work& work) {
     result.dice = ratio(2 * count.both, count.a + count.b);
     result.jaccard = ratio(count.both, count.a + count.b - count.both);
     if (count.a > 0 && count.b > 0)
-        result.surface = surface_distance(surface_points({a.grid, a.values}), surface_points({a.grid, b.values}), work);
+        result.surface = surface_distance(surface_voxels(a.grid, a.values), surface_voxels(a.grid, b.values), work);
     return result;
 }
 

@@ -15,7 +15,7 @@ const OF_LOOKS = ["id", "ids", "name", "color", "visible", "label_value"];
 
 /** Whether a call changes what is drawn, and not only how it is called, coloured and seen. */
 export function changesDrawing<Name extends CallName>(name: Name, args: Arguments<Name>): boolean {
-  if (name === "structure.add" || name === "structure.show_only") return false;
+  if (name === "structure.add" || name === "structure.show_only" || name === "structure.review") return false;
   const isSetting = name === "contour.set" || name === "structure.set";
   return !isSetting || Object.keys(args).some((key) => !OF_LOOKS.includes(key));
 }

@@ -33,6 +33,8 @@ export interface PageActionServices {
   near(): readonly NearDrawing[];
   /** Lets the user type the name of a structure. */
   rename(structure: number): void;
+  /** Of two structures. */
+  goThroughDifferences(first: number, second: number): void;
   /** The first hint is taken away; false where there is none. */
   leaveHint(): boolean;
   /** What the pointer does is given up; false where it does nothing. */
@@ -128,7 +130,7 @@ export class PageActions {
     openStatistics(
       http,
       (p) => panes.goTo(p),
-      (first, second) => surface.compare(first, second),
+      { showDistances: (first, second) => surface.compare(first, second), goThrough: this.services.goThroughDifferences },
     );
   };
 

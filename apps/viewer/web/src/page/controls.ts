@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Session } from "../net/protocol";
 import type { Editor } from "../tools/editor";
+import { DifferenceCard } from "../ui/difference_card";
 import { Dividers } from "../ui/dividers";
 import { IdentityCard } from "../ui/identity";
 import { Keyboard } from "../ui/keyboard";
@@ -36,12 +37,15 @@ export class Controls {
   readonly near: NearDrawings;
   readonly identity = new IdentityCard();
   readonly secondCard: SecondImageCard;
+  readonly differences: DifferenceCard;
 
   constructor(private readonly services: ControlsServices) {
     const { models, server, stage, keepers } = services;
     this.near = new NearDrawings({ http: server.http, project: models.project, import: (drawing) => this.actions.importNear(drawing) });
+    this.differences = new DifferenceCard({ ...this.shared(), goTo: (p) => stage.panes.goTo(p), tell: (text) => void server.notices.show("info", text) });
     this.actions = new PageActions({
       ...this.shared(),
+      goThroughDifferences: (first, second) => void this.differences.start(first, second),
       near: () => this.near.found,
       cancelPointers: stage.cancelPointers,
       rename: (structure) => this.panel.rename(structure),
@@ -95,6 +99,7 @@ export class Controls {
       identity: this.identity.element,
       near: this.near.element,
       secondImage: this.secondCard.element,
+      differences: this.differences.element,
       suggest: this.inSight(() => void this.actions.suggest()),
       goTo: (p) => stage.panes.goTo(p),
       show: (contour) => stage.panes.show(contour),
@@ -113,6 +118,7 @@ export class Controls {
       toggleSingle: (pane) => stage.panes.toggleSingle(pane),
       help: actions.openHelp,
       suggest: () => void actions.suggest(),
+      nextDifference: (by) => void this.differences.step(by),
       rename: () => this.panel.rename(models.project.activeStructure?.id),
       tell: (text) => void server.notices.show("info", text),
     });

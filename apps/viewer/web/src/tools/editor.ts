@@ -96,7 +96,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   }
 
   press(view: ViewName, screen: Screen, pointer: Point2, modifiers: Modifiers): Gesture | null {
-    if (this.isBare || this.mayNotEdit() || this.isMadeByRule()) return null;
+    if (this.isBare || this.mayNotEdit() || this.isMadeByRule() || this.isLocked()) return null;
     return this.tool.press(this, this.place(view, screen, pointer), modifiers);
   }
 
@@ -110,6 +110,14 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     const active = this.project.activeStructure;
     if (active?.rule === undefined || !this.tool.stretch || this.drawing.sketch) return false;
     this.services.tell(`${active.name} is made by the rule ${active.rule}. Freeze it to draw in it, or choose another structure.`);
+    return true;
+  }
+
+  /** Whether what is active is not to be changed: nothing is drawn in it. Says so. */
+  private isLocked(): boolean {
+    const active = this.project.activeStructure;
+    if (active?.review?.locked !== true || this.tool.looksAround) return false;
+    this.services.tell(`${active.name} is locked. Unlock it in the list to change it, or choose another structure.`);
     return true;
   }
 

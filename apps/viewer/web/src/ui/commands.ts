@@ -27,6 +27,8 @@ export interface CommandServices {
   leave(): void;
   /** Shows where to draw next. */
   suggest(): void;
+  /** Of two structures that are compared, the next or the previous place where they differ. */
+  nextDifference(by: 1 | -1): void;
   rename(): void;
   tell(text: string): void;
 }
@@ -103,6 +105,11 @@ export const COMMANDS: readonly Command[] = [
     keys: ["n"],
     help: ["Look around", "N, Shift + N", "the next, the previous slice with a contour"],
     run: (page, isShifted) => goToDrawnSlice(page, isShifted ? -1 : 1),
+  },
+  {
+    keys: ["j"],
+    help: ["Look around", "J, Shift + J", "the next, the previous difference of two structures, the largest first"],
+    run: ({ nextDifference }, isShifted) => nextDifference(isShifted ? -1 : 1),
   },
   {
     keys: ["t"],

@@ -26,8 +26,14 @@ export function rowsOf(found: Comparison, [first, second]: readonly [string, str
   ];
 }
 
+/** What can be seen of two structures in the views. */
+export interface ComparedViews {
+  showDistances(first: number, second: number): void;
+  goThrough(first: number, second: number): void;
+}
+
 /** Two structures to choose, such as two readers' drawings of one organ, and how they agree. */
-export function comparison(http: Http, structures: readonly Named[], signal: AbortSignal, showDistances: (first: number, second: number) => void): HTMLElement {
+export function comparison(http: Http, structures: readonly Named[], signal: AbortSignal, views: ComparedViews): HTMLElement {
   const choice = (chosen: number, title: string, test: string) => {
     const select = el("select", { "aria-label": title, "data-test": test });
     select.append(...structures.map(({ structure, name }, i) => el("option", { value: String(structure), selected: i === chosen }, name)));
@@ -62,14 +68,21 @@ export function comparison(http: Http, structures: readonly Named[], signal: Abo
     title: "Colour the first one's surface by how far it is from the second's",
     class: "choice",
     test: "compare-map",
-    click: () => showDistances(Number(first.value), Number(second.value)),
+    click: () => views.showDistances(Number(first.value), Number(second.value)),
   });
-  const same = () => void (map.disabled = first.value === second.value);
+  const walk = button({
+    label: "Go through differences",
+    title: "All views go to where they differ most, and on to the next place",
+    class: "choice",
+    test: "compare-walk",
+    click: () => views.goThrough(Number(first.value), Number(second.value)),
+  });
+  const same = () => void (map.disabled = walk.disabled = first.value === second.value);
   for (const select of [first, second]) select.addEventListener("change", same);
   return el(
     "section",
     { class: "comparison", "aria-label": "Compare two structures" },
-    el("div", { class: "field" }, "Compare", first, "with", second, go, map),
+    el("div", { class: "field" }, "Compare", first, "with", second, go, map, walk),
     table,
     status,
   );

@@ -18,6 +18,8 @@ export interface PanelServices extends RowServices, ActionServices, Omit<RuleSer
   /** What others have drawn on it. */
   near: HTMLElement;
   secondImage: HTMLElement;
+  /** Of two structures that are compared. */
+  differences: HTMLElement;
   openStatistics(): void;
   /** Shows where to draw next. */
   suggest(): void;
@@ -56,6 +58,7 @@ export class Panel {
       services.identity,
       services.near,
       services.secondImage,
+      services.differences,
       el("div", { class: "panel-title" }, el("span", {}, "Structures"), el("span", { class: "panel-buttons" }, addRule, add)),
       rule.element,
       this.list.filter,

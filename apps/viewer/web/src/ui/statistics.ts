@@ -2,7 +2,7 @@
 import type { Vec3 } from "../geometry/vec";
 import type { Http } from "../net/http";
 import type { SecondStatistics, Statistics, StructureStatistics } from "../net/protocol";
-import { comparison } from "./comparison";
+import { comparison, type ComparedViews } from "./comparison";
 import { csv } from "./csv";
 import { openDialog } from "./dialogs";
 import { button, el } from "../dom/dom";
@@ -61,7 +61,7 @@ export function asCsv({ structures, ...images }: Statistics): string {
 }
 
 /** Measures all structures anew, as `kontur segment` makes them. */
-export function openStatistics(http: Http, goTo: (p: Vec3) => void, showDistances: (first: number, second: number) => void): void {
+export function openStatistics(http: Http, goTo: (p: Vec3) => void, views: ComparedViews): void {
   const abort = new AbortController();
   const status = el("p", { class: "dialog-status", role: "status" }, "Measuring …");
   const content = el("div", { class: "statistics" });
@@ -84,7 +84,12 @@ export function openStatistics(http: Http, goTo: (p: Vec3) => void, showDistance
       });
       dialog.append(el("div", { class: "dialog-buttons" }, save));
       if (found.structures.length > 1)
-        dialog.append(comparison(http, found.structures, abort.signal, (first, second) => (dialog.close(), showDistances(first, second))));
+        dialog.append(
+          comparison(http, found.structures, abort.signal, {
+            showDistances: (first, second) => (dialog.close(), views.showDistances(first, second)),
+            goThrough: (first, second) => (dialog.close(), views.goThrough(first, second)),
+          }),
+        );
     },
     (error: unknown) => void (status.textContent = error instanceof Error ? error.message : String(error)),
   );

@@ -82,7 +82,7 @@ void run(const DeriveCommand& command, Console& console) {
     check(command, rules);
     const Work work = console.work(command.threads);
     const DeriveSources sources = read_derive_sources(command, rules, console, work);
-    std::vector<DerivedStructure> made = derive(rules, sources.structures, sources.image ? &*sources.image : nullptr, work);
+    std::vector<DerivedStructure> made = derive(rules, sources.structures, {.image = sources.image ? &*sources.image : nullptr}, work);
     std::string text;
     for (const DerivedStructure& one : made) {
         text += fmt::format("{}: {}\n", one.name, in_ml(volume_ml(one.mask)));

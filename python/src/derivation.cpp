@@ -137,7 +137,7 @@ True
             const std::vector<std::string> texts = rules_from(rules);
             const std::vector<NamedStructure> named = structures_from(structures);
             std::vector<DerivedStructure> made = run({progress, stop, threads}, [&](const Work& work) {
-                return derive(texts, named, image, work);
+                return derive(texts, named, {.image = image}, work);
             });
             py::dict by_name;
             for (DerivedStructure& one : made) {

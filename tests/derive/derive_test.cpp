@@ -15,7 +15,7 @@ namespace {
 NamedStructure named(const test::Solid& solid, const Grid& grid) { return {solid.name, test::mask_of(solid, grid), {}}; }
 
 Mask derived(const std::string& expression, const std::vector<NamedStructure>& structures, const Image* image = nullptr) {
-    return derive(std::vector{"X = " + expression}, structures, image, {.threads = 2}).front().mask;
+    return derive(std::vector{"X = " + expression}, structures, {.image = image}, {.threads = 2}).front().mask;
 }
 
 std::int64_t count(const Mask& mask) { return std::count(mask.values.begin(), mask.values.end(), 1); }
@@ -239,10 +239,29 @@ TEST(Derive, IsTheSameForAnyNumberOfThreadsAndOrderOfRules) {
     const Grid grid = test::grid_of({1, 1, 3}, 0.17, 24);
     const std::vector<NamedStructure> structures{{"A", random_blobs(grid, random), {}}, {"B", random_blobs(grid, random), {}}};
     const std::vector<std::string> rules{"Q = P - (B + {1 mm, left 3 mm})", "P = A + 4 mm"}, turned{rules[1], rules[0]};
-    const auto one = derive(rules, structures, nullptr, {.threads = 1}), many = derive(turned, structures, nullptr, {.threads = 5});
+    const auto one = derive(rules, structures, {}, {.threads = 1}), many = derive(turned, structures, {}, {.threads = 5});
     EXPECT_GT(count(one[0].mask), 0);
     EXPECT_EQ(one[0].mask.values, many[1].mask.values);
     EXPECT_EQ(one[1].mask.values, many[0].mask.values);
+}
+
+TEST(Derive, TakesABodyThatIsKnownAndMakesSurfacesWhereTheyAreWanted) {
+    const Grid grid = test::grid_of({1, 1, 2}, 0.17, 30);
+    const auto body = std::make_shared<const Mask>(test::mask_of(test::ball(12), grid));
+    const std::vector<NamedStructure> structures{{"A", test::mask_of(test::ball(5), grid), {}}};
+    const std::vector<std::string> rules{"In = crop(A + 9 mm, body(), 2 mm)", "Rest = body() - In", "None = A - A"};
+    int asked = 0;
+    const FindBody find = [&](const std::optional<double>&) { return ++asked, body; };
+    const auto made = derive(rules, structures, {.body = find, .mesh = true});
+    EXPECT_EQ(asked, 2);
+    for (const DerivedStructure& one : made) {
+        EXPECT_TRUE(contains(*body, one.mask)) << one.rule;
+        const double ml = static_cast<double>(count(one.mask)) * grid.voxel_volume_mm3() / 1000;
+        EXPECT_NEAR(signed_volume_mm3(one.mesh) / 1000, ml, 0.03 * ml) << one.rule;
+        EXPECT_EQ(one.mesh.triangles.empty(), one.name == "None");
+        if (one.name != "None") EXPECT_TRUE(topology(one.mesh).closed && topology(one.mesh).oriented) << one.rule;
+    }
+    for (const DerivedStructure& one : derive(rules, structures, {.body = find})) EXPECT_TRUE(one.mesh.triangles.empty());
 }
 
 TEST(Derive, RefusesStructuresThatDoNotFit) {

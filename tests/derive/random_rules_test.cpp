@@ -113,7 +113,7 @@ TEST(RandomRules, AgreeWithAPlainProgramOnVoxels) {
             known[name] = {structures.back().mask.values, structures.back().mask.values};
         }
         const std::string rule = "X = " + random_expression(random, 1 + round % 3);
-        const Mask found = derive(std::vector{rule}, structures, nullptr, {.threads = 2}).front().mask;
+        const Mask found = derive(std::vector{rule}, structures, {}, {.threads = 2}).front().mask;
         const Bounds bounds = VoxelProgram(grid, known).run(read_rule(rule).expression);
         for (std::size_t n = 0; n < found.values.size(); ++n) {
             ASSERT_GE(found.values[n], bounds.surely[n]) << rule << " at " << n;

@@ -5,10 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "kontur/derive/body_outline.h"
-#include "kontur/derive/derive.h"
 #include "kontur/derive/derived_attributes.h"
-#include "kontur/derive/derived_surfaces.h"
 #include "viewer/model/file_names.h"
 
 namespace kontur::viewer {
@@ -33,26 +30,12 @@ std::vector<NamedStructure> named(const RuleMembers& members, const std::vector<
     return sources;
 }
 
-std::vector<TriangleMesh> meshes(const RuleMembers& members, const std::vector<FittedStructure>& fitted, const Image& image,
-                                 const Work& work) {
-    std::vector<ShownStructure> sources;
-    for (const auto& [name, id] : members.drawn) {
-        const FittedStructure& one = the_one(fitted, id);
-        sources.push_back({name, std::make_shared<const TriangleMesh>(*one.made.mesh), function_of(one)});
-    }
-    DerivedSurfacesOptions options{image.grid};
-    options.body = [&](const std::optional<double>& threshold) {
-        return std::make_shared<const Mask>(body_outline(image, threshold, work.untold()));
-    };
-    return derived_surfaces(members.rules, sources, options, work.untold());
-}
-
 }  // namespace
 
 std::vector<FittedStructure> fit_derived(const RuleMembers& members, const std::vector<FittedStructure>& fitted,
-                                         const State& state, const Image& image, const Work& work) {
-    std::vector<DerivedStructure> made = derive(members.rules, named(members, fitted), &image, work);
-    std::vector<TriangleMesh> surfaces = meshes(members, fitted, image, work);
+                                         const State& state, const DeriveOptions& options, const Work& work) {
+    std::vector<DerivedStructure> made = derive(members.rules, named(members, fitted), options, work);
+    const double voxel_ml = options.image->grid.voxel_volume_mm3() / 1000;
     std::vector<FittedStructure> all;
     for (std::size_t n = 0; n < made.size(); ++n) {
         FittedStructure one{structure_of(state, members.made[n]), std::move(made[n].outlines), {}, false, {}, true};
@@ -60,10 +43,9 @@ std::vector<FittedStructure> fit_derived(const RuleMembers& members, const std::
         one.set.attributes.color = rgb8(one.structure.color);
         one.set.attributes.review = one.structure.attributes.review;
         one.made.mask = std::move(made[n].mask);
-        one.made.mesh = std::move(surfaces[n]);
+        if (options.mesh) one.made.mesh = std::move(made[n].mesh);
         one.made.report.mask_voxels = std::ranges::count(one.made.mask.values, 1);
-        one.made.report.mask_volume_ml =
-            static_cast<double>(one.made.report.mask_voxels) * image.grid.voxel_volume_mm3() / 1000;
+        one.made.report.mask_volume_ml = static_cast<double>(one.made.report.mask_voxels) * voxel_ml;
         all.push_back(std::move(one));
     }
     return all;

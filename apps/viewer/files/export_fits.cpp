@@ -83,21 +83,22 @@ std::size_t bytes_of(const ExportFits::Fits& fits) {
 
 }  // namespace
 
-ExportFits::Fits ExportFits::all(const State& state, const Work& work, std::optional<int> time) {
+ExportFits::Fits ExportFits::all(const State& state, const Work& work, const FitWish& wish) {
     const State own = at_opened_time_alone(state);
-    if (own.contours.size() == state.contours.size()) return at_opened_time(state, work);
+    if (own.contours.size() == state.contours.size()) return at_opened_time(state, wish.mesh, work);
     std::vector<FittedStructure> all;
-    if (!drawn_in(own).empty() || !all_members(own).made.empty()) all = *at_opened_time(own, work);
+    if (!drawn_in(own).empty() || !all_members(own).made.empty()) all = *at_opened_time(own, wish.mesh, work);
     for (const Id id : drawn_in(state))
-        if (!is_of_opened_time(state, id)) all.push_back(in_time(state, id, time.value_or(state.opened_time), work));
+        if (!is_of_opened_time(state, id)) all.push_back(in_time(state, id, wish, work));
     std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
     return std::make_shared<const std::vector<FittedStructure>>(std::move(all));
 }
 
-FittedStructure ExportFits::in_time(const State& state, Id structure, int time, const Work& work) {
-    if (is_moving(state, structure)) return motion(state, structure, work)->at(time);
+FittedStructure ExportFits::in_time(const State& state, Id structure, const FitWish& wish, const Work& work) {
+    if (is_moving(state, structure))
+        return motion(state, structure, work)->at(wish.time.value_or(state.opened_time));
     const std::shared_ptr<const Image> image = image_at_(*drawn_times(state, structure).begin());
-    FittedStructure made = fit_structure(only(state, structure), structure, *image, true, work);
+    FittedStructure made = fit_structure(only(state, structure), structure, *image, wish.mesh, work);
     made.shares_border = false;
     return made;
 }
@@ -115,25 +116,30 @@ std::shared_ptr<const FittedMotion> ExportFits::motion(const State& state, Id st
     return made;
 }
 
-ExportFits::Fits ExportFits::at_opened_time(const State& state, const Work& work) {
+ExportFits::Fits ExportFits::at_opened_time(const State& state, bool mesh, const Work& work) {
     const RuleMembers derived = all_members(state);
-    if (derived.made.empty()) return drawn_at_opened_time(without_rules(state), work);
-    return kept(state, [&] {
+    if (derived.made.empty()) return drawn_at_opened_time(without_rules(state), mesh, work);
+    return kept(state, mesh, [&] {
         std::vector<FittedStructure> all;
-        if (!drawn_in(state).empty()) all = *drawn_at_opened_time(without_rules(state), work);
-        for (FittedStructure& one : fit_derived(derived, all, state, *image_, work)) all.push_back(std::move(one));
+        if (!drawn_in(state).empty()) all = *drawn_at_opened_time(without_rules(state), mesh, work);
+        const DeriveOptions options{image_.get(), find_body(work), mesh};
+        for (FittedStructure& one : fit_derived(derived, all, state, options, work)) all.push_back(std::move(one));
         std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
         return all;
     });
 }
 
-ExportFits::Fits ExportFits::drawn_at_opened_time(const State& state, const Work& work) {
+ExportFits::Fits ExportFits::drawn_at_opened_time(const State& state, bool mesh, const Work& work) {
     const std::set<Id> drawn = drawn_in(state);
     const State asked = drawn.size() == 1 ? only(state, *drawn.begin()) : state;
-    return kept(asked, [&] { return fit_structures(asked, *image_, true, work); });
+    return kept(asked, mesh, [&] { return fit_structures(asked, *image_, mesh, work); });
 }
 
-std::shared_ptr<const FittedStructure> ExportFits::derived(const State& state, Id structure, const Work& work) {
+FindBody ExportFits::find_body(const Work& work) const {
+    return [this, &work](const std::optional<double>& threshold) { return bodies_->at(*image_, threshold, work.untold()); };
+}
+
+std::shared_ptr<const FittedStructure> ExportFits::derived(const State& state, Id structure, bool mesh, const Work& work) {
     const RuleMembers members = members_of(state, structure);
     for (const auto& [name, id] : members.drawn)
         if (!has_content(state, id))
@@ -141,33 +147,35 @@ std::shared_ptr<const FittedStructure> ExportFits::derived(const State& state, I
                         fmt::format("{}: {} has 0 contours; at least 1 is needed", members.rules.front(), name));
     State own = state.borders.shared ? state : only(state, members.drawn);
     for (const Id id : members.made) own.structures[id] = structure_of(state, id);
-    const Fits fits = at_opened_time(own, work);
+    const Fits fits = at_opened_time(own, mesh, work);
     return {fits, &*std::ranges::find(*fits, structure, [](const FittedStructure& one) { return one.structure.id; })};
 }
 
 std::shared_ptr<const FittedStructure> ExportFits::one(const State& all_of_it, Id structure, const Work& work,
-                                                       std::optional<int> time) {
+                                                       const FitWish& wish) {
     if (!is_of_opened_time(all_of_it, structure))
-        return std::make_shared<const FittedStructure>(
-            in_time(all_of_it, structure, time.value_or(all_of_it.opened_time), work));
-    if (structure_of(all_of_it, structure).rule) return derived(at_opened_time_alone(all_of_it), structure, work);
+        return std::make_shared<const FittedStructure>(in_time(all_of_it, structure, wish, work));
+    if (structure_of(all_of_it, structure).rule) return derived(at_opened_time_alone(all_of_it), structure, wish.mesh, work);
     const State state = at_opened_time_alone(without_rules(all_of_it));
     const std::set<Id> drawn = drawn_in(state);
     const bool is_alone = drawn.size() == 1 || !drawn.contains(structure);
     if (state.borders.shared && !is_alone) {
-        const Fits fits = drawn_at_opened_time(state, work);
+        const Fits fits = drawn_at_opened_time(state, wish.mesh, work);
         const auto chosen = std::ranges::find(*fits, structure, [](const FittedStructure& one) { return one.structure.id; });
         return {fits, &*chosen};
     }
     const State own = only(state, structure);
-    const Fits fits = kept(own, [&] { return std::vector{fit_structure(own, structure, *image_, true, work)}; });
+    const Fits fits = kept(own, wish.mesh, [&] { return std::vector{fit_structure(own, structure, *image_, wish.mesh, work)}; });
     return {fits, &fits->front()};
 }
 
-ExportFits::Fits ExportFits::kept(const State& state, const std::function<std::vector<FittedStructure>()>& fit) {
+ExportFits::Fits ExportFits::kept(const State& state, bool mesh,
+                                  const std::function<std::vector<FittedStructure>()>& fit) {
     {
         const std::scoped_lock lock(mutex_);
-        const auto known = std::ranges::find_if(kept_, [&](const FitsOfState& one) { return is_same(one.state, state); });
+        const auto known = std::ranges::find_if(kept_, [&](const FitsOfState& one) {
+            return (one.mesh || !mesh) && is_same(one.state, state);
+        });
         if (known != kept_.end()) {
             kept_.splice(kept_.begin(), kept_, known);
             return known->fits;
@@ -175,7 +183,7 @@ ExportFits::Fits ExportFits::kept(const State& state, const std::function<std::v
     }
     const Fits made = std::make_shared<const std::vector<FittedStructure>>(fit());
     const std::scoped_lock lock(mutex_);
-    kept_.push_front({state, made});
+    kept_.push_front({state, mesh, made});
     std::size_t bytes = 0, count = 0;
     std::erase_if(kept_,
                   [&](const FitsOfState& one) { return (bytes += bytes_of(one.fits)) > kMostBytes || ++count > kMostKept; });

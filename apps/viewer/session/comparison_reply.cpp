@@ -46,7 +46,7 @@ std::string comparison_reply(SessionState& s, const Compared& compared, const St
             throw Error(ErrorKind::invalid_input,
                         fmt::format("{} has 0 contours; at least 1 is needed to compare it", one.name));
     const StatusLine line(s.pages.status_teller(), fmt::format("Comparing {} and {}", a.name, b.name));
-    const auto fitted = [&, &at = time](Id id) { return s.fits.one(now, id, line.work(stop), at); };
+    const auto fitted = [&, &at = time](Id id) { return s.fits.one(now, id, line.work(stop), {at, false}); };
     const auto fit_a = fitted(first), fit_b = fitted(second);
     const Comparison found = kontur::compare(fit_a->made.mask, fit_b->made.mask, line.work(stop));
     nlohmann::json reply{{"first", first},

@@ -221,7 +221,8 @@ ContourSet contours_in_time(const State& now, Id structure) {
 void write_one(SessionState& s, const State& now, const ExportChoice& choice, const fs::path& path, const Work& work) {
     const std::string& name = choice.name;
     const Structure& chosen = structure_of(now, *choice.structure);
-    const auto made = [&] { return s.fits.one(now, chosen.id, work, choice.time); };
+    const bool mesh = is_one_of(name, kMeshes) || name == "picture.png";
+    const auto made = [&] { return s.fits.one(now, chosen.id, work, {choice.time, mesh}); };
     const ContourSet set = chosen.rule ? made()->set : contours_in_time(now, chosen.id);
     const ImageReference image = [&] {
         const std::scoped_lock lock(s.mutex);
@@ -259,7 +260,7 @@ Download exported(SessionState& s, const ExportChoice& choice, const StopToken& 
     } else if (is_export_of_all(name)) {
         const State now = s.state();
         check_is_of_one_time(s, now, choice);
-        const ExportFits::Fits all = s.fits.all(now, line.work(stop), choice.time);
+        const ExportFits::Fits all = s.fits.all(now, line.work(stop), {choice.time, name.ends_with(".zip")});
         for (const std::string& note : write_structures(path, name, *all, s.image.series, line.work(stop)))
             s.pages.notice("info", note);
         download.file_name = fmt::format("{}_{}", name_of_image(s), name);

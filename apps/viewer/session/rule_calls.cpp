@@ -135,7 +135,7 @@ json freeze(SessionState& s, const Members& m) {
     if (!before.rule)
         throw Error(ErrorKind::invalid_input, fmt::format("{} is made by no rule, so nothing moves it", before.name));
     const StatusLine line(s.pages.status_teller(), "Freezing " + before.name);
-    const auto fit = s.fits.one(now, before.id, line.work({}));
+    const auto fit = s.fits.one(now, before.id, line.work({}), {.mesh = false});
     const auto mask = std::make_shared<const StoredMask>(fit->made.mask);
     Structure after = before;
     after.rule.reset();

@@ -33,10 +33,10 @@ SessionState::SessionState(OpenedImage opened, const std::filesystem::path& path
     : image(opened),
       edges(image.times),
       fits(
-          image.voxels, [this](int time) { return image.times.image(time); }, image.times.count()),
+          image.voxels, [this](int time) { return image.times.image(time); }, image.times.count(), bodies),
       notes(std::move(opened.notes)),
       project(path, opened.reference),
-      surfaces(surface_listener(*this)) {
+      surfaces(surface_listener(*this), bodies) {
     if (const ImageReference& known = project.image(); known.fingerprint != opened.reference.fingerprint)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} was drawn on another image ({}) than {}", path.string(), known.path, image.title));

@@ -17,6 +17,7 @@
 #include "viewer/session/pages.h"
 #include "viewer/session/watched_planes.h"
 #include "viewer/store/project.h"
+#include "viewer/surfaces/body_outlines.h"
 #include "viewer/surfaces/surfaces.h"
 
 namespace kontur::viewer {
@@ -69,6 +70,7 @@ struct SessionState {
         return edges.at(contour.time.value_or(image.times.own()));
     }
 
+    std::shared_ptr<BodyOutlines> bodies = std::make_shared<BodyOutlines>();  ///< in the image
     ProjectImage image;
     EdgesInTime edges;
     ExportFits fits;

@@ -60,7 +60,7 @@ std::string statistics_reply(SessionState& s, std::optional<int> time, const Sto
     const StatusLine line(s.pages.status_teller(), "Measuring");
     const State now = s.state();
     const std::shared_ptr<const FurtherImage> second = s.second.get();
-    const ExportFits::Fits fits = s.fits.all(now, line.work(stop), time);
+    const ExportFits::Fits fits = s.fits.all(now, line.work(stop), {time});
     const std::vector<FittedStructure>& all = *fits;
     json rows = json::array();
     for (const FittedStructure& one : all) rows.push_back(row_json(one, *image_of(s, now, one.structure.id, time)));

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "kontur/base/error.h"
-#include "kontur/derive/body_outline.h"
 #include "kontur/derive/derived_surfaces.h"
 #include "viewer/surfaces/surfaces.h"
 
@@ -90,8 +89,11 @@ RuleMembers together(const std::map<Id, RuleTask>& tasks) {
 
 }  // namespace
 
-Derivations::Derivations(Sources sources, Listener listener, StatusListener status)
-    : sources_(std::move(sources)), listener_(std::move(listener)), status_(std::move(status)) {}
+Derivations::Derivations(Sources sources, Listener listener, StatusListener status, std::shared_ptr<BodyOutlines> bodies)
+    : sources_(std::move(sources)),
+      listener_(std::move(listener)),
+      status_(std::move(status)),
+      bodies_(std::move(bodies)) {}
 
 Derivations::~Derivations() {
     {
@@ -249,19 +251,10 @@ std::vector<TriangleMesh> Derivations::meshes(const RuleMembers& members, const 
                                               const std::shared_ptr<const Image>& image, const StopToken& stop) {
     const bool is_finished = are_finished(members, surfaces);
     DerivedSurfacesOptions options{image->grid, is_finished ? kFinishedVoxels : kPreviewVoxels};
-    options.body = [&](const std::optional<double>& threshold) { return body(image, threshold, stop); };
+    options.body = [&](const std::optional<double>& threshold) { return bodies_->at(*image, threshold, {.stop = stop}); };
     const StatusOfWork status{is_finished ? status_ : StatusListener()};
     const Work work{.callback = [&](std::string_view, double done) { status.tell(done); }, .stop = stop};
     return derived_surfaces(members.rules, sources_of(members, surfaces), options, work);
-}
-
-/// Looking for the body takes seconds, and the image stays the same.
-std::shared_ptr<const Mask> Derivations::body(const std::shared_ptr<const Image>& image,
-                                              const std::optional<double>& threshold, const StopToken& stop) {
-    const std::scoped_lock lock(bodies_mutex_);
-    std::shared_ptr<const Mask>& known = bodies_[threshold];
-    if (!known) known = std::make_shared<const Mask>(body_outline(*image, threshold, {.stop = stop}));
-    return known;
 }
 
 TriangleMesh Derivations::preview(const RuleTask& task) {

@@ -16,6 +16,7 @@
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/volume.h"
 #include "viewer/model/structure_rules.h"
+#include "viewer/surfaces/body_outlines.h"
 
 namespace kontur::viewer {
 
@@ -39,7 +40,7 @@ public:
 
     /// All three are called from the thread, without a lock; they may call all of this but `wait`. The status is how much
     /// has been done; nothing when nothing is being done any more.
-    Derivations(Sources sources, Listener listener, StatusListener status);
+    Derivations(Sources sources, Listener listener, StatusListener status, std::shared_ptr<BodyOutlines> bodies);
     ~Derivations();
     Derivations(const Derivations&) = delete;
     Derivations& operator=(const Derivations&) = delete;
@@ -69,21 +70,18 @@ private:
     bool show_again(const RuleMembers& members, const Surfaces& surfaces);
     std::vector<TriangleMesh> meshes(const RuleMembers& members, const Surfaces& surfaces,
                                      const std::shared_ptr<const Image>& image, const StopToken& stop);
-    std::shared_ptr<const Mask> body(const std::shared_ptr<const Image>& image, const std::optional<double>& threshold,
-                                     const StopToken& stop);
     bool is_newest(Id structure) const;
 
     const Sources sources_;
     const Listener listener_;
     const StatusListener status_;
+    const std::shared_ptr<BodyOutlines> bodies_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     Tasks tasks_;
     std::set<Id> outdated_;
     bool is_working_ = false, is_preview_ = false, is_ending_ = false;
     StopSource stop_;
-    std::mutex bodies_mutex_;
-    std::map<std::optional<double>, std::shared_ptr<const Mask>> bodies_;  ///< outlines of the body
     std::map<Id, std::vector<std::string>> made_of_;  ///< of the thread: rules and revisions of what was finished last
     std::thread thread_;                              ///< last: it uses all above
 };

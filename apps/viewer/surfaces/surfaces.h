@@ -140,14 +140,15 @@ struct SurfaceListener {
 /// that there are.
 class Surfaces {
 public:
-    explicit Surfaces(SurfaceListener listener)
+    explicit Surfaces(SurfaceListener listener,
+                      std::shared_ptr<BodyOutlines> bodies = std::make_shared<BodyOutlines>())
         : listener_(std::move(listener)),
           motions_([this] { return next_revision(); },
                    [this](const std::shared_ptr<const Motion>& motion) {
                        if (listener_.motion) listener_.motion(motion);
                    }),
           derivations_([this] { return all(); }, [this](Surface surface) { publish_derived(std::move(surface)); },
-                       [this](std::optional<double> done) { show_derivation(done); }) {}
+                       [this](std::optional<double> done) { show_derivation(done); }, std::move(bodies)) {}
     ~Surfaces();
     Surfaces(const Surfaces&) = delete;
     Surfaces& operator=(const Surfaces&) = delete;

@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "kontur/base/error.h"
+#include "kontur/derive/body_outline.h"
 #include "kontur/derive/evaluate.h"
 #include "kontur/derive/level_contours.h"
+#include "kontur/derive/level_mesh.h"
+#include "kontur/derive/mask_levels.h"
 #include "kontur/derive/rule_order.h"
 #include "kontur/derive/rule_words.h"
 #include "kontur/derive/structure_levels.h"
@@ -54,6 +58,16 @@ std::vector<std::string> unique_names(const Expression& expression) {
     return names;
 }
 
+/// Looks for each outline once, whichever rules name it.
+FindBody found_once(const Image& image, const Work& work) {
+    const auto known = std::make_shared<std::map<std::optional<double>, std::shared_ptr<const Mask>>>();
+    return [&image, &work, known](const std::optional<double>& threshold) {
+        std::shared_ptr<const Mask>& body = (*known)[threshold];
+        if (!body) body = std::make_shared<const Mask>(body_outline(image, threshold, work.untold()));
+        return body;
+    };
+}
+
 const Grid& grid_of(std::span<const NamedStructure> structures, const Image* image) {
     if (!structures.empty()) return structures.front().mask.grid;
     if (!image)
@@ -71,17 +85,22 @@ void check_rules(std::span<const std::string> texts, std::span<const std::string
 }
 
 std::vector<DerivedStructure> derive(std::span<const std::string> texts, std::span<const NamedStructure> structures,
-                                     const Image* image, const Work& work) {
+                                     const DeriveOptions& options, const Work& work) {
+    const Image* const image = options.image;
     check_structures(structures);
     std::vector<std::string> names;
     for (const NamedStructure& one : structures) names.push_back(one.name);
-    check_rules(texts, names, image != nullptr);
+    check_rules(texts, names, image != nullptr || options.body != nullptr);
     const std::vector<Rule> rules = read_rules(texts);
     const std::vector<std::size_t> order = order_of(rules);
     const Grid& grid = grid_of(structures, image);
     if (image) check_one_grid(image->grid, "the image", grid);
 
-    RuleScene scene{work_lattice(grid), image};
+    RuleScene scene{work_lattice(grid)};
+    const FindBody find_body = options.body || !image ? options.body : found_once(*image, work);
+    scene.body = [&](const std::optional<double>& threshold) {
+        return mask_levels(*find_body(threshold), scene.lattice, work.untold());
+    };
     const std::vector<std::string> sources = sources_of(texts);
     for (const NamedStructure& one : structures)
         if (std::find(sources.begin(), sources.end(), one.name) != sources.end())
@@ -93,9 +112,10 @@ std::vector<DerivedStructure> derive(std::span<const std::string> texts, std::sp
         Levels& levels = scene.levels[rule.name];
         levels = evaluate(rule.expression, scene, work.untold());
         DerivedStructure& result = results[order[n]];
-        result = {rule.name, rule.text, unique_names(rule.expression), mask_of(levels, scene.lattice, grid), {}};
+        result = {rule.name, rule.text, unique_names(rule.expression), mask_of(levels, scene.lattice, grid)};
         result.outlines = level_contours(levels, scene.lattice, grid);
         result.outlines.name = rule.name;
+        if (options.mesh) result.mesh = level_mesh(levels, scene.lattice.grid, work.untold());
     }
     work.report("derive", 1);
     return results;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +11,7 @@
 #include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/contour.h"
+#include "kontur/shape/mesh.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -29,15 +32,25 @@ struct DerivedStructure {
     Mask mask;                         ///< on the grid of the structures
     ContourSet outlines{};             ///< closed contours around the mask's voxel centres on each slice (constant k), at
                                        ///< sub-voxel places; named after the structure
+    TriangleMesh mesh{};               ///< closed, with normals, where it is wanted; without triangles where nothing is left
+};
+
+/// The outline of the body in the image above a threshold, on the grid of the structures; see body() in docs/derive.md.
+using FindBody = std::function<std::shared_ptr<const Mask>(const std::optional<double>& threshold)>;
+
+struct DeriveOptions {
+    const Image* image = nullptr;  ///< in which body() is looked for, once for each threshold; on the structures' grid
+    FindBody body{};               ///< in place of the image, for who knows it
+    bool mesh = false;             ///< whether surfaces are wanted, too
 };
 
 /// Makes structures of structures by rules such as "PTV = CTV + 5 mm - (Cord + 3 mm)" (docs/derive.md). A rule may name what
-/// another one makes; results come in the order of the rules. A margin is a distance in mm in space from the surface. `image`
-/// is what body() looks at; on the same grid as the structures, which may be none then. Throws Error(invalid_input), with a
+/// another one makes; results come in the order of the rules. A margin is a distance in mm in space from the surface. With an
+/// image there may be no structures. Throws Error(invalid_input), with a
 /// mark at the place in the line, for what is no rule, a name that stands for nothing and rules in a circle; for structures
 /// of several grids, two of one name and a rule that makes a structure that is there. The same bytes for any number of threads.
 std::vector<DerivedStructure> derive(std::span<const std::string> rules, std::span<const NamedStructure> structures,
-                                     const Image* image = nullptr, const Work& work = {});
+                                     const DeriveOptions& options = {}, const Work& work = {});
 
 /// Throws what `derive` would throw of the rules for structures of these names, before there is a mask.
 void check_rules(std::span<const std::string> rules, std::span<const std::string> structures, bool has_image);

@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "kontur/derive/derive.h"
 #include "kontur/derive/evaluate.h"
 #include "kontur/derive/function_levels.h"
 #include "kontur/derive/level_mesh.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/derive/derive.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
@@ -27,8 +27,7 @@ struct ShownStructure {
 struct DerivedSurfacesOptions {
     Grid grid;                     ///< of the image
     std::int64_t most_voxels = 0;  ///< that are looked at, larger ones where the image has more; 0: the image's own
-    /// The outline of the body above a threshold (see body()), on the grid. Not needed where no rule asks for it.
-    std::function<std::shared_ptr<const Mask>(const std::optional<double>& threshold)> body{};
+    FindBody body{};               ///< on the grid; not needed where no rule asks for it
 };
 
 /// The surfaces of what rules make, in their order, for screens: as `derive` makes masks, of the part of the image that the

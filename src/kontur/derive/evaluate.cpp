@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/derive/evaluate.h"
 
-#include "kontur/derive/body_outline.h"
 #include "kontur/derive/margin.h"
-#include "kontur/derive/mask_levels.h"
 #include "kontur/derive/parts.h"
 
 namespace kontur {
@@ -32,8 +30,7 @@ Levels evaluate(const Expression& e, const RuleScene& scene, const Work& work) {
         case Operation::name:
             return scene.levels.at(e.name);
         case Operation::body:
-            if (scene.body) return scene.body(e.threshold);
-            return mask_levels(body_outline(*scene.image, e.threshold, work), scene.lattice, work);
+            return scene.body(e.threshold);
         case Operation::join:
             return join(operand(0), operand(1), work);
         case Operation::meet:

@@ -16,8 +16,7 @@ namespace kontur {
 /// What rules are worked out with.
 struct RuleScene {
     WorkLattice lattice;
-    const Image* image = nullptr;                                          ///< for body()
-    std::function<Levels(const std::optional<double>& threshold)> body{};  ///< in place of the image, where it is known
+    std::function<Levels(const std::optional<double>& threshold)> body{};  ///< not needed where no rule asks for it
     std::map<std::string, Levels> levels{};                                ///< of each structure that is known so far
 };
 

@@ -103,6 +103,7 @@ viewer::Workspace::Services services(const OpenCommand& command, const Words& wo
             viewer::Places(places),
             viewer_file("recent.json"),
             viewer_file("arrangements.json"),
+            viewer_file("outbox"),
             named_archive(command)};
 }
 

@@ -2,7 +2,7 @@
 """An archive for the page's tests: Debian's Orthanc with nine axial slices in it. Prints its DICOMweb address, and ends with its
 input. Exit code 77 where Orthanc is not installed.
 
-python3 serve.py FOLDER
+python3 serve.py FOLDER [PORT]    # with a port: the archive of this folder comes back
 """
 import pathlib
 import shutil
@@ -11,9 +11,11 @@ import sys
 import support
 
 folder = pathlib.Path(sys.argv[1])
+port = int(sys.argv[2]) if len(sys.argv) > 2 else None
 if not shutil.which("Orthanc") or not support.PLUGIN.exists():
     sys.exit(77)
-with support.running(support.Orthanc(folder)) as orthanc:
-    orthanc.put(support.make_series(folder))
+with support.running(support.Orthanc(folder, port)) as orthanc:
+    if port is None:
+        orthanc.put(support.make_series(folder))
     print(orthanc.address, flush=True)
     sys.stdin.read()

@@ -166,10 +166,10 @@ def free_port():
 class Orthanc:
     """Debian's Orthanc with its DICOMweb plugin, on ports of its own."""
 
-    def __init__(self, folder, **more):
+    def __init__(self, folder, port=None, **more):
         if not shutil.which("Orthanc") or not PLUGIN.exists():
             pytest.skip("orthanc or orthanc-dicomweb is not installed")
-        self.port = free_port()
+        self.port = port or free_port()
         settings = {"StorageDirectory": str(folder / "db"), "IndexDirectory": str(folder / "db"), "HttpPort": self.port, "DicomPort": free_port()}
         settings |= {"AuthenticationEnabled": False, "RemoteAccessAllowed": False, "Plugins": [str(PLUGIN)]} | more
         (folder / "orthanc.json").write_text(json.dumps(settings))

@@ -3,21 +3,32 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
 #include "archive/send.h"
 #include "kontur/base/error.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/dicom/dicom_object.h"
-#include "viewer/model/temporary_files.h"
+#include "kontur/shape/sha256.h"
 
 namespace kontur::viewer {
 namespace {
 
 using archive::Outcome;
 
-std::string key_of(const Session& session, const std::string& name) { return session.project_path().string() + "\n" + name; }
+namespace fs = std::filesystem;
+
+constexpr std::array kNames{"seg.dcm", "rtstruct.dcm"};
+
+void write_private(const fs::path& file, std::string_view bytes) {
+    fs::create_directories(file.parent_path());
+    fs::permissions(file.parent_path(), fs::perms::owner_all);
+    write_file_atomically(file, bytes);
+    fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+}
 
 nlohmann::json answer(const archive::Sent& sent, const std::string& host) {
     switch (sent.outcome) {
@@ -36,30 +47,41 @@ nlohmann::json answer(const archive::Sent& sent, const std::string& host) {
 
 }  // namespace
 
+ArchiveOutbox::ArchiveOutbox(fs::path folder) : folder_(std::move(folder)) {
+    if (folder_.empty()) folder_ = temporary_.emplace().path() / "outbox";
+}
+
+fs::path ArchiveOutbox::file_of(const NamedArchive& named, const Session& session, const std::string& name) const {
+    // A path or an address may have signs that no file's name has; this tells both apart from all others.
+    Sha256 digest;
+    const std::string whose = named.service.service + "\n" + fs::absolute(session.project_path()).string();
+    digest.update(std::as_bytes(std::span(whose)));
+    return folder_ / fmt::format("{}_{}", digest.hex().substr(0, 32), name);
+}
+
 nlohmann::json ArchiveOutbox::send(const NamedArchive& named, Session& session, const Item& item, const StopToken& stop) {
-    const std::string key = key_of(session, item.name);
-    std::string bytes = bytes_of(session, item, stop);
-    const TemporaryFolder folder;
-    const std::filesystem::path file = folder.path() / item.name;
-    write_file_atomically(file, bytes);
-    const DicomObject object = dicom_object(file);
-    {
-        const std::scoped_lock lock(mutex_);
-        kept_[key] = std::move(bytes);
+    const fs::path file = file_of(named, session, item.name);
+    std::error_code ignored;
+    if (!item.is_again || !fs::exists(file, ignored)) {
+        try {
+            write_private(file, session.exported(item.name, std::nullopt, stop).bytes);
+        } catch (const fs::filesystem_error& error) {
+            throw Error(ErrorKind::io, fmt::format("{} cannot be kept in case it does not arrive: {}", file.string(),
+                                                   error.code().message()));
+        }
     }
     archive::Http http(named.service, named.access);
-    const archive::Sent sent = archive::send_object(http, file, object, {.stop = stop});
-    const std::scoped_lock lock(mutex_);
-    kept_.erase(key);
+    const archive::Sent sent = archive::send_object(http, file, dicom_object(file), {.stop = stop});
+    fs::remove(file, ignored);
     return answer(sent, named.service.host());
 }
 
-std::string ArchiveOutbox::bytes_of(Session& session, const Item& item, const StopToken& stop) {
-    if (item.is_again) {
-        const std::scoped_lock lock(mutex_);
-        if (const auto kept = kept_.find(key_of(session, item.name)); kept != kept_.end()) return kept->second;
-    }
-    return session.exported(item.name, std::nullopt, stop).bytes;
+std::vector<std::string> ArchiveOutbox::waiting(const NamedArchive& named, const Session& session) const {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const std::string name : kNames)
+        if (fs::exists(file_of(named, session, name), ignored)) names.push_back(name);
+    return names;
 }
 
 }  // namespace kontur::viewer

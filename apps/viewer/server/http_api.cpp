@@ -234,6 +234,8 @@ HttpReply HttpApi::api(const HttpRequest& request, const StopToken& stop) {
     if (!get && below("/api/import/")) return import(request, stop);
     if (!get && target.path == "/api/image") return put_image(request, stop);
     if (!get && target.path == "/api/archive/send") return send(request, stop);
+    if (get && target.path == "/api/archive/waiting")
+        return {200, "application/json", to_text({{"names", workspace_.waiting_for_archive(request.opening)}}), {}};
     if (auto reply = start_api(workspace_, request.method, target, request.body, stop))
         return {200, std::move(reply->content_type), std::move(reply->body), {}};
     return not_found();

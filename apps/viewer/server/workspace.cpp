@@ -51,7 +51,7 @@ constexpr const char* kAnotherOpen = "another image was opened since; load the p
 }  // namespace
 
 Workspace::Workspace(Services services)
-    : services_(std::move(services)), recent_(services_.recent), arrangements_(services_.arrangements) {}
+    : services_(std::move(services)), recent_(services_.recent), arrangements_(services_.arrangements), outbox_(services_.outbox) {}
 
 Workspace::Workspace(std::shared_ptr<Session> session) { adopt(std::move(session)); }
 
@@ -292,6 +292,11 @@ json Workspace::send_to_archive(const ArchiveOutbox::Item& item, const std::opti
     const StatusLine line([this](const std::string& said, std::optional<double> done) { tell_status(said, done); },
                           fmt::format("Sending to {}", archive().service.host()));
     return outbox_.send(archive(), *open, item, stop);
+}
+
+std::vector<std::string> Workspace::waiting_for_archive(const std::optional<std::string>& opening) const {
+    const std::shared_ptr<Session> open = session(opening);
+    return takes_objects(*open) ? outbox_.waiting(archive(), *open) : std::vector<std::string>();
 }
 
 void Workspace::open_archived(const std::string& study_uid, const std::string& series_uid, const std::string& title) {

@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "kontur/base/stop.h"
 #include "kontur/base/work.h"
@@ -50,6 +51,7 @@ public:
         Places places{};
         std::filesystem::path recent{};        ///< the file that lists projects; empty: none is kept
         std::filesystem::path arrangements{};  ///< the file of how the page was arranged; empty: that is not kept
+        std::filesystem::path outbox{};        ///< the folder of what did not arrive in the archive; empty: it is not kept
         std::optional<NamedArchive> archive{};
     };
 
@@ -109,6 +111,8 @@ public:
     /// it came from elsewhere.
     nlohmann::json send_to_archive(const ArchiveOutbox::Item& item, const std::optional<std::string>& opening,
                                    const StopToken& stop);
+    /// For pages: the names of exports that did not arrive in the archive that the image came from.
+    std::vector<std::string> waiting_for_archive(const std::optional<std::string>& opening) const;
     /// How the page is arranged for images of each modality.
     Arrangements& arrangements() { return arrangements_; }
     /// Tells pages' status lines what is being done; "": nothing.

@@ -13,6 +13,7 @@ import { Stage } from "./page/stage";
 import { connectUpdates } from "./page/updates";
 import { StartPage } from "./start/start_page";
 import { Editor } from "./tools/editor";
+import { offerWaiting } from "./ui/sending";
 
 /** Puts the parts of the page together, and hands the server's events to them. */
 export class App {
@@ -154,6 +155,7 @@ export class App {
     void this.stage.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.server.notices.show("warning", note);
     this.beginHints(session, page);
+    if (isFirst && session.archive !== undefined) void offerWaiting(this.server.http, session.archive, this.server.notices);
     if (session.can_close && !this.keepers.windows.isSecond) this.back.start();
     document.body.dataset["ready"] = "true";
   }

@@ -18,6 +18,7 @@ import type {
   SliceRequest,
   Statistics,
   Volume,
+  WaitingReply,
 } from "./protocol";
 
 export interface FileChoices {
@@ -128,6 +129,11 @@ export class Http {
   /** Sends an export to the archive that the image came from; `again`: what did not arrive last time. */
   async send(name: SendRequest["name"], again: boolean, signal: AbortSignal): Promise<SentReply> {
     return (await (await this.request("archive/send", { method: "POST", body: JSON.stringify({ name, again }), signal })).json()) as SentReply;
+  }
+
+  /** Exports that did not arrive in the archive that the image came from; they are sent again as they were. */
+  async waitingForArchive(): Promise<SendRequest["name"][]> {
+    return ((await (await this.request("archive/waiting", {})).json()) as WaitingReply).names as SendRequest["name"][];
   }
 
   /** Gives up what is being read. */

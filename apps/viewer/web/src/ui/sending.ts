@@ -3,11 +3,31 @@ import type { Http } from "../net/http";
 import type { SendRequest } from "../net/protocol";
 import { button, buttonPiece, el } from "../dom/dom";
 import { render, type Child } from "../dom/pieces";
+import type { Notices } from "./status";
 
 const OBJECTS: readonly [SendRequest["name"], string][] = [
   ["seg.dcm", "DICOM SEG"],
   ["rtstruct.dcm", "DICOM RTSTRUCT"],
 ];
+
+/** As people call it. */
+export const objectLabel = (name: SendRequest["name"]): string => OBJECTS.find(([one]) => one === name)![1];
+
+/** Says what was made before and did not arrive, and offers to send it again. */
+export async function offerWaiting(http: Http, host: string, notices: Pick<Notices, "show">): Promise<void> {
+  const names = await http.waitingForArchive().catch(() => []);
+  for (const name of names) {
+    const label = objectLabel(name);
+    const again = () => {
+      close();
+      http.send(name, true, new AbortController().signal).then(
+        ({ outcome, text }) => notices.show(outcome === "stored" ? "info" : "warning", `${label}: ${text}`),
+        (error: unknown) => notices.show("error", `${label} was not sent: ${error instanceof Error ? error.message : String(error)}`),
+      );
+    };
+    const close = notices.show("warning", `${label} was made before and did not arrive at ${host}.`, { label: "Try again", act: again });
+  }
+}
 
 /** What was made goes to the archive that the image came from, as new objects of its study. */
 export class Sending {
@@ -36,11 +56,33 @@ export class Sending {
       el("div", { class: "choices" }, ...choices),
       this.said,
     );
+    void this.tellWaiting();
   }
 
   /** Ends what is on its way. */
   close(): void {
     this.running?.abort();
+  }
+
+  /** Of what did not arrive before, perhaps in another run of kontur. */
+  private async tellWaiting(): Promise<void> {
+    const names = await this.http.waitingForArchive().catch(() => []);
+    const [name] = names;
+    if (!name || this.running) return;
+    const label = names.map(objectLabel).join(" and ");
+    render(this.said, [`${label} did not arrive before.`, ...names.map((one) => this.again(one))]);
+  }
+
+  private again(name: SendRequest["name"]): Child {
+    const label = objectLabel(name);
+    return buttonPiece({
+      label: "Try again",
+      title: `Send ${label} as it was`,
+      class: "choice",
+      part: `again-${name}`,
+      test: "send-again",
+      click: () => void this.send(name, label, true),
+    });
   }
 
   private async send(name: SendRequest["name"], label: string, again: boolean): Promise<void> {
@@ -53,7 +95,7 @@ export class Sending {
       outcome = [`${label}: ${text}`];
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
-      outcome = [`${label} was not sent: ${why}`, this.choice("Try again", "send-again", () => void this.send(name, label, true))];
+      outcome = [`${label} was not sent: ${why}`, this.again(name)];
     }
     if (this.running === own) render(this.said, outcome);
   }

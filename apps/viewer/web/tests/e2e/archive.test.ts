@@ -2,7 +2,7 @@
 // Studies of an archive on the start page: Debian's Orthanc by DICOMweb.
 import assert from "node:assert/strict";
 import { spawn, type ChildProcess } from "node:child_process";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, readdirSync, statSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { createInterface } from "node:readline";
 import { after, before, test } from "node:test";
@@ -18,11 +18,11 @@ let address = "";
 let server: Server;
 let browser: Browser;
 
-/** Its address; "" where Orthanc is not installed. */
-function serve(): Promise<string> {
+/** Its address; "" where Orthanc is not installed. With a port the archive of before comes back. */
+function serve(...port: string[]): Promise<string> {
   if (!python || !series) return Promise.resolve("");
   const script = join(dirname(series), "..", "archive", "serve.py");
-  const child = (archive = spawn(python, [script, join(folder.path, "orthanc")], { stdio: ["pipe", "pipe", "inherit"] }));
+  const child = (archive = spawn(python, [script, join(folder.path, "orthanc"), ...port], { stdio: ["pipe", "pipe", "inherit"] }));
   return new Promise((resolve, reject) => {
     createInterface(child.stdout).once("line", resolve);
     child.once("exit", (code) => (code === 77 ? resolve("") : reject(new Error(`the archive ended: ${code}`))));
@@ -93,4 +93,23 @@ test("lists studies, shows the series of one with a picture, and opens it", asyn
   await picture(viewer, "archive_not_sent");
   await page.click("[data-test=send-again]");
   await said.filter({ hasText: "DICOM RTSTRUCT was not sent: " }).waitFor();
+
+  // Neither kontur nor the archive is there any more. Both come back, and it is sent as it was.
+  const outbox = join(folder.path, "kontur", "outbox");
+  const [kept, ...others] = readdirSync(outbox);
+  assert.match(kept!, /_rtstruct\.dcm$/);
+  assert.deepEqual(others, []);
+  assert.equal(statSync(outbox).mode & 0o777, 0o700);
+  assert.equal(statSync(join(outbox, kept!)).mode & 0o777, 0o600);
+  await page.close();
+  await server.end();
+  assert.equal(await serve(new URL(address).port), address);
+  server = await Server.startAt({ HOME: folder.path, XDG_CACHE_HOME: join(folder.path, "cache") }, folder.path, "--archive", address);
+  const again = await Viewer.openStart(browser, server.address);
+  await again.page.locator("[data-test=recent]").first().click();
+  await again.page.locator(".notice", { hasText: "DICOM RTSTRUCT was made before and did not arrive at" }).waitFor();
+  await picture(again, "archive_waiting");
+  await again.page.click("[data-test=remedy]");
+  await again.page.locator(".notice", { hasText: "DICOM RTSTRUCT: " }).filter({ hasText: "has stored it in the study of the image." }).waitFor();
+  assert.deepEqual(readdirSync(outbox), []);
 });

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An archive for the page's tests: Debian's Orthanc with nine axial slices in it. Prints its DICOMweb address, and ends with its
+"""An archive for the page's tests: Debian's Orthanc with nine axial slices in it, or the series in FOLDER/dicom. Prints its DICOMweb address, and ends with its
 input. Exit code 77 where Orthanc is not installed.
 
 python3 serve.py FOLDER [PORT]    # with a port: the archive of this folder comes back
@@ -16,6 +16,7 @@ if not shutil.which("Orthanc") or not support.PLUGIN.exists():
     sys.exit(77)
 with support.running(support.Orthanc(folder, port)) as orthanc:
     if port is None:
-        orthanc.put(support.make_series(folder))
+        own = folder / "dicom"
+        orthanc.put(sorted(own.iterdir()) if own.exists() else support.make_series(folder))
     print(orthanc.address, flush=True)
     sys.stdin.read()

@@ -47,7 +47,7 @@ export function reviewRows(structure: Structure, services: ReviewServices): Piec
     click: () => (approved ? call("structure.review", { id, approved_by: "" }) : askWho(structure, services)),
   });
   const say = buttonPiece({ label: "Comment", title: `Say something about ${name}`, class: "choice", test: "comment", click: () => askComment(structure, services) });
-  const rows = [piece("div", { key: "review", class: "structure-look" }, lock, approve, say)];
+  const rows: Piece[] = [piece("div", { key: "review", class: "structure-look" }, lock, approve, say)];
   if (approved) rows.push(piece("p", { key: "approval", class: "review-text", "data-test": "approval" }, `Approved by ${words(approved)}`));
   if (comment !== "") rows.push(piece("p", { key: "comment", class: "review-text", "data-test": "comment-text" }, comment));
   return rows;

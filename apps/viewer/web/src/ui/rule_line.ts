@@ -7,6 +7,7 @@ import { volumeText } from "../model/volumes";
 import type { Caller } from "../net/calls";
 import { VIEW_NAMES, type RuleProblem } from "../net/protocol";
 import type { RulePreview } from "../tools/rule_preview";
+import { RuleMenu } from "./rule_menu";
 import { buttonPiece, el } from "../dom/dom";
 import { ICONS } from "../dom/icons";
 import { piece, render, type Piece } from "../dom/pieces";
@@ -39,6 +40,7 @@ export class RuleLine {
       click: () => this.complete(),
     },
   });
+  private readonly menu: RuleMenu;
   private offered: Completion[] = [];
   private chosen = 0; // of these
   private problem: RuleProblem | null = null;
@@ -49,6 +51,10 @@ export class RuleLine {
 
   constructor(private readonly services: RuleServices) {
     const { project, navigation } = services;
+    this.menu = new RuleMenu(
+      () => [...project.structures.values()].map(({ name }) => name),
+      (line) => this.put(line),
+    );
     project.on(["surfaces", "structures"], () => this.previewSoon());
     navigation.on(["planes"], () => this.previewSoon());
     this.update();
@@ -61,6 +67,8 @@ export class RuleLine {
   open(line = ""): void {
     this.element.hidden = false;
     this.field.value = line;
+    this.menu.reset(this.services.project.activeStructure?.name);
+    this.menu.element.hidden = line !== ""; // they begin a rule, and do not read one
     this.typed();
     this.field.focus();
     this.field.setSelectionRange(line.length, line.length);
@@ -71,6 +79,14 @@ export class RuleLine {
     ++this.asked;
     window.clearTimeout(this.timer);
     this.services.preview.show([]);
+  }
+
+  /** A line that the menus wrote. */
+  private put(line: string): void {
+    this.field.value = line;
+    this.offered = [];
+    this.update();
+    void this.check();
   }
 
   private typed(): void {
@@ -185,6 +201,7 @@ export class RuleLine {
     const volume = piece("span", { class: "rule-volume", "data-test": "rule-volume", "aria-live": "polite" }, this.volume ?? "");
     render(this.element, [
       piece("div", { class: "rule-row" }, this.field, leave),
+      this.menu.element,
       this.list(),
       this.problemPiece(),
       piece("div", { class: "rule-row" }, volume, take),

@@ -120,6 +120,33 @@ test("errors point at their place, circles name their members, and what is used 
   assert.equal(await page.locator(".contour-row").count(), 2, "nothing was drawn");
 });
 
+test("menus write the line", async () => {
+  const { page } = viewer;
+  await page.click("[data-test=add-structure]");
+  await page.keyboard.type("Cord");
+  await page.keyboard.press("Enter");
+  await viewer.drawBall("sagittal", 3, 10);
+  await viewer.surfaceShown();
+  await page.locator("button.name", { hasText: "CTV" }).click();
+  await page.click("[data-test=add-rule]");
+  await page.click("[data-test=rule-menu] summary");
+  await page.locator("[data-test=rule-take]:enabled").waitFor();
+  assert.equal(await field().inputValue(), "PTV = CTV + 5 mm");
+  await viewer.type(page.locator("[data-test=menu-name]"), "PTV opt");
+  await viewer.type(page.locator("[data-test=menu-margin]"), "7");
+  await page.selectOption("[data-test=menu-crop]", "body()");
+  await viewer.type(page.locator("[data-test=menu-cropGap]"), "3");
+  await page.selectOption("[data-test=menu-spare]", "Cord");
+  await viewer.type(page.locator("[data-test=menu-spareMargin]"), "2");
+  assert.equal(await field().inputValue(), "'PTV opt' = crop(CTV + 7 mm, body(), 3 mm) - (Cord + 2 mm)");
+  await page.locator("[data-test=rule-volume]", { hasText: "ml" }).waitFor();
+  await picture("rule_menus");
+  await page.click("[data-test=rule-take]");
+  await viewer.waitForStep("undo", "Add PTV opt");
+  assert.equal(await row("PTV opt").locator("[data-test=rule-text]").textContent(), "'PTV opt' = crop(CTV + 7 mm, body(), 3 mm) - (Cord + 2 mm)");
+  assert.deepEqual(viewer.complaints, []);
+});
+
 test("it is changed by a click on it, renamed with its sources, frozen, and exported", async () => {
   const { page } = viewer;
   await take("PTV = CTV + 5 mm");

@@ -127,11 +127,10 @@ export class PageActions {
 
   readonly openStatistics = (): void => {
     const { http, panes, surface } = this.services;
-    openStatistics(
-      http,
-      (p) => panes.goTo(p),
-      { showDistances: (first, second) => surface.compare(first, second), goThrough: this.services.goThroughDifferences },
-    );
+    openStatistics(http, (p) => panes.goTo(p), {
+      showDistances: (first, second) => surface.compare(first, second),
+      goThrough: this.services.goThroughDifferences,
+    });
   };
 
   readonly openImport = (): void => openImport(this.importServices(), this.services.near());

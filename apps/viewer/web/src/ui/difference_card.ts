@@ -99,7 +99,13 @@ export class DifferenceCard {
     this.element.hidden = !pair;
     if (!pair) return render(this.element, []);
     const [first, second] = pair.map((id) => this.name(id)) as [string, string];
-    const leave = buttonPiece({ icon: ICONS.close, title: "Compare no longer", class: "icon-button small", test: "differences-leave", click: () => this.close() });
+    const leave = buttonPiece({
+      icon: ICONS.close,
+      title: "Compare no longer",
+      class: "icon-button small",
+      test: "differences-leave",
+      click: () => this.close(),
+    });
     const rows: (Piece | null)[] = [
       piece("div", { key: "names", class: "rule-row" }, piece("strong", { class: "rule-volume" }, `${first} and ${second}`), leave),
       piece("p", { key: "figures", class: "certainty", "data-test": "differences-figures" }, found ? figures(found) : "Comparing …"),

@@ -21,7 +21,9 @@ const words = ({ by, at }: Approval): string => [by || "somebody", at.replace("T
 export function reviewFlags({ review }: Structure): Piece[] {
   const flags: Piece[] = [];
   if (review?.approved)
-    flags.push(piece("span", { key: "approved", class: "flag approved", "data-test": "is-approved", title: `Approved by ${words(review.approved)}` }, "approved"));
+    flags.push(
+      piece("span", { key: "approved", class: "flag approved", "data-test": "is-approved", title: `Approved by ${words(review.approved)}` }, "approved"),
+    );
   if (review?.locked) flags.push(piece("span", { key: "locked", class: "flag rule", "data-test": "is-locked", title: "Nothing changes it" }, "locked"));
   return flags;
 }
@@ -46,7 +48,13 @@ export function reviewRows(structure: Structure, services: ReviewServices): Piec
     test: "approve",
     click: () => (approved ? call("structure.review", { id, approved_by: "" }) : askWho(structure, services)),
   });
-  const say = buttonPiece({ label: "Comment", title: `Say something about ${name}`, class: "choice", test: "comment", click: () => askComment(structure, services) });
+  const say = buttonPiece({
+    label: "Comment",
+    title: `Say something about ${name}`,
+    class: "choice",
+    test: "comment",
+    click: () => askComment(structure, services),
+  });
   const rows: Piece[] = [piece("div", { key: "review", class: "structure-look" }, lock, approve, say)];
   if (approved) rows.push(piece("p", { key: "approval", class: "review-text", "data-test": "approval" }, `Approved by ${words(approved)}`));
   if (comment !== "") rows.push(piece("p", { key: "comment", class: "review-text", "data-test": "comment-text" }, comment));
@@ -61,7 +69,14 @@ function lastReviewer(project: Project): string {
 let known = ""; // who approved in this page
 
 function askWho({ id, name }: Structure, { call, project }: ReviewServices): void {
-  const field = el("input", { type: "text", value: lastReviewer(project), maxLength: MOST_NAME, required: true, autocomplete: "name", "data-test": "reviewer" });
+  const field = el("input", {
+    type: "text",
+    value: lastReviewer(project),
+    maxLength: MOST_NAME,
+    required: true,
+    autocomplete: "name",
+    "data-test": "reviewer",
+  });
   ask(`Approve ${name}`, "Who approves it?", field, "Approve", () => {
     known = field.value.trim();
     if (known !== "") call("structure.review", { id, approved_by: known });
@@ -90,7 +105,17 @@ function ask(title: string, label: string, field: HTMLInputElement | HTMLTextAre
     title,
     "review-dialog",
     el("label", { class: "review-field" }, label, field),
-    el("div", { class: "choices" }, button({ label: word, title: `${word} (${field instanceof HTMLInputElement ? "" : "Ctrl + "}Enter)`, class: "primary", test: "review-take", click: submit })),
+    el(
+      "div",
+      { class: "choices" },
+      button({
+        label: word,
+        title: `${word} (${field instanceof HTMLInputElement ? "" : "Ctrl + "}Enter)`,
+        class: "primary",
+        test: "review-take",
+        click: submit,
+      }),
+    ),
   );
   field.focus();
   field.select();

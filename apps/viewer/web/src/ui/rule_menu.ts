@@ -29,8 +29,20 @@ export class RuleMenu {
       piece("summary", {}, "By menus"),
       this.row("Name", this.text("name")),
       this.row("of", this.select("of", "Structure that it is made of", others), "+", this.length("margin", "Margin in mm; negative: inwards", -100), "mm"),
-      this.row("within", this.select("crop", "Crop to", ["", BODY, ...others]), "gap", this.length("cropGap", "Gap to its surface in mm", 0, choice.crop === ""), "mm"),
-      this.row("less", this.select("spare", "Structure to spare", ["", ...others]), "+", this.length("spareMargin", "Margin around it in mm", -100, choice.spare === ""), "mm"),
+      this.row(
+        "within",
+        this.select("crop", "Crop to", ["", BODY, ...others]),
+        "gap",
+        this.length("cropGap", "Gap to its surface in mm", 0, choice.crop === ""),
+        "mm",
+      ),
+      this.row(
+        "less",
+        this.select("spare", "Structure to spare", ["", ...others]),
+        "+",
+        this.length("spareMargin", "Margin around it in mm", -100, choice.spare === ""),
+        "mm",
+      ),
     ]);
   }
 

@@ -99,9 +99,15 @@ test("all views go from one difference of two readers to the next, the largest f
   const radius = await viewer.pixels("axial", BALL_RADIUS_MM / 2);
   await page.keyboard.press("f");
   const far = await viewer.pixels("axial", 8);
-  await viewer.drag("axial", circle(radius, 36).map(([x, y]): [number, number] => [x + far, y]));
+  await viewer.drag(
+    "axial",
+    circle(radius, 36).map(([x, y]): [number, number] => [x + far, y]),
+  );
   await viewer.waitForStep("undo", "Draw a contour");
-  await viewer.drag("coronal", circle(radius, 36).map(([x, y]): [number, number] => [x + far, y]));
+  await viewer.drag(
+    "coronal",
+    circle(radius, 36).map(([x, y]): [number, number] => [x + far, y]),
+  );
   await viewer.saved();
   await viewer.surfaceShown();
   const before = await viewer.slice("sagittal");

@@ -200,7 +200,7 @@ struct CompareCommand {
     std::optional<std::int64_t> label;
     ReadImageOptions read;
     std::optional<std::int64_t> label_b, frame_b;  ///< where b's are others
-    int differences = 0;  ///< places to list, the farthest first
+    int differences = 0;                           ///< places to list, the farthest first
     bool json = false;
     int threads = 0;  ///< 0: the machine's
 };

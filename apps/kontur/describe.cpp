@@ -191,8 +191,7 @@ Facts describe(const StructureAttributes& attributes) {
     if (attributes.code) facts["code"] = words(*attributes.code);
     for (const PhysicalProperty& one : attributes.physical_properties)
         facts["physical_properties"][one.property] = one.value;
-    if (const auto& approved = attributes.review.approved)
-        facts["approved"] = {{"by", approved->by}, {"at", approved->at}};
+    if (const auto& approved = attributes.review.approved) facts["approved"] = {{"by", approved->by}, {"at", approved->at}};
     if (!attributes.review.comment.empty()) facts["comment"] = attributes.review.comment;
     if (attributes.review.locked) facts["locked"] = true;
     return facts;

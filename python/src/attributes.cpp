@@ -173,8 +173,8 @@ Examples
 )");
     constructor(type, &attributes_from, py::arg("color") = py::none(), py::arg("interpreted_type") = "",
                 py::arg("generation_algorithm") = "", py::arg("description") = "", py::arg("number") = py::none(),
-                py::arg("category") = py::none(), py::arg("code") = py::none(),
-                py::arg("physical_properties") = py::tuple(), py::arg("review") = py::none());
+                py::arg("category") = py::none(), py::arg("code") = py::none(), py::arg("physical_properties") = py::tuple(),
+                py::arg("review") = py::none());
     type.def_readonly("color", &Attributes::color, "list of 3 int (red, green, blue, 0 to 255), or None.");
     type.def_readonly("interpreted_type", &Attributes::interpreted_type, "str: 'GTV', 'ORGAN', ...; may be empty.");
     type.def_readonly("generation_algorithm", &Attributes::generation_algorithm, "str: may be empty.");

@@ -105,7 +105,8 @@ TEST(Differences, AreAllVoxelsAndTheirDistancesAreExact) {
             const double voxel_ml = grid.voxel_volume_mm3() / 1000;
             EXPECT_NEAR(sum_ml(found, true), static_cast<double>(alone[0]) * voxel_ml, 1e-9);
             EXPECT_NEAR(sum_ml(found, false), static_cast<double>(alone[1]) * voxel_ml, 1e-9);
-            for (const Difference& one : found) EXPECT_NEAR(one.distance_mm, distance_to(one.at, one.in_first ? b : a), 1e-9);
+            for (const Difference& one : found)
+                EXPECT_NEAR(one.distance_mm, distance_to(one.at, one.in_first ? b : a), 1e-9);
             for (std::size_t n = 1; n < found.size(); ++n) EXPECT_GE(found[n - 1].distance_mm, found[n].distance_mm);
             const std::vector<Difference> coarser = differences(a, b, {.saddle = 0.25});
             EXPECT_LE(coarser.size(), found.size());

@@ -81,7 +81,8 @@ TEST(Reviews, NothingChangesALockedStructure) {
     visit.lock(visit.tumour);
     const auto contours = visit.session->state().contours;
     for (const json& change : changes)
-        EXPECT_EQ(visit.refusal(change), "Tumour is locked, and stays as it is; unlock it in the list to change it") << change;
+        EXPECT_EQ(visit.refusal(change), "Tumour is locked, and stays as it is; unlock it in the list to change it")
+            << change;
     EXPECT_EQ(visit.session->state().contours, contours);
     visit.lock(visit.tumour, false);
     for (const json& change : changes) {

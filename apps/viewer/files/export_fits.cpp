@@ -95,8 +95,7 @@ ExportFits::Fits ExportFits::all(const State& state, const Work& work, const Fit
 }
 
 FittedStructure ExportFits::in_time(const State& state, Id structure, const FitWish& wish, const Work& work) {
-    if (is_moving(state, structure))
-        return motion(state, structure, work)->at(wish.time.value_or(state.opened_time));
+    if (is_moving(state, structure)) return motion(state, structure, work)->at(wish.time.value_or(state.opened_time));
     const std::shared_ptr<const Image> image = image_at_(*drawn_times(state, structure).begin());
     FittedStructure made = fit_structure(only(state, structure), structure, *image, wish.mesh, work);
     made.shares_border = false;
@@ -165,17 +164,16 @@ std::shared_ptr<const FittedStructure> ExportFits::one(const State& all_of_it, I
         return {fits, &*chosen};
     }
     const State own = only(state, structure);
-    const Fits fits = kept(own, wish.mesh, [&] { return std::vector{fit_structure(own, structure, *image_, wish.mesh, work)}; });
+    const Fits fits =
+        kept(own, wish.mesh, [&] { return std::vector{fit_structure(own, structure, *image_, wish.mesh, work)}; });
     return {fits, &fits->front()};
 }
 
-ExportFits::Fits ExportFits::kept(const State& state, bool mesh,
-                                  const std::function<std::vector<FittedStructure>()>& fit) {
+ExportFits::Fits ExportFits::kept(const State& state, bool mesh, const std::function<std::vector<FittedStructure>()>& fit) {
     {
         const std::scoped_lock lock(mutex_);
-        const auto known = std::ranges::find_if(kept_, [&](const FitsOfState& one) {
-            return (one.mesh || !mesh) && is_same(one.state, state);
-        });
+        const auto known = std::ranges::find_if(
+            kept_, [&](const FitsOfState& one) { return (one.mesh || !mesh) && is_same(one.state, state); });
         if (known != kept_.end()) {
             kept_.splice(kept_.begin(), kept_, known);
             return known->fits;

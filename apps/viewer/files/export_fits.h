@@ -39,8 +39,7 @@ public:
     /// borders.
     Fits all(const State& state, const Work& work, const FitWish& wish = {});
     /// As `fit_structure`, likewise.
-    std::shared_ptr<const FittedStructure> one(const State& state, Id structure, const Work& work,
-                                               const FitWish& wish = {});
+    std::shared_ptr<const FittedStructure> one(const State& state, Id structure, const Work& work, const FitWish& wish = {});
     /// Of a structure that moves.
     std::shared_ptr<const FittedMotion> motion(const State& state, Id structure, const Work& work);
 

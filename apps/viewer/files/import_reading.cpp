@@ -78,9 +78,10 @@ void forget_approvals(StructureSet& set, std::vector<std::string>& notes) {
     for (Roi& roi : set.rois) {
         auto& approved = roi.contours.attributes.review.approved;
         if (approved && &roi == &set.rois.front())
-            notes.push_back(fmt::format("{} approved the outlines of this file; here they are not approved, as kontur makes a "
-                                        "surface of its own of them",
-                                        approved->by.empty() ? "Somebody" : approved->by));
+            notes.push_back(
+                fmt::format("{} approved the outlines of this file; here they are not approved, as kontur makes a "
+                            "surface of its own of them",
+                            approved->by.empty() ? "Somebody" : approved->by));
         approved.reset();
     }
 }

@@ -16,9 +16,9 @@ namespace kontur::viewer {
 constexpr Id kLargestId = Id{1} << 53;        ///< JavaScript's whole numbers end here
 constexpr std::size_t kMostPoints = 100'000;  ///< of one contour
 
-constexpr int kMostImages = 16;               ///< of one project, as far as messages and files go
-constexpr std::size_t kMostRuleBytes = 4000;  ///< of a line that makes a structure
-constexpr std::size_t kMostNameBytes = 400;   ///< of a structure's name: the protocol allows 100 characters
+constexpr int kMostImages = 16;                  ///< of one project, as far as messages and files go
+constexpr std::size_t kMostRuleBytes = 4000;     ///< of a line that makes a structure
+constexpr std::size_t kMostNameBytes = 400;      ///< of a structure's name: the protocol allows 100 characters
 constexpr std::size_t kMostCommentBytes = 4096;  ///< of one on a structure: the protocol allows 1024 characters
 
 /// How much a value may hold.

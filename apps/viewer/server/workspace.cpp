@@ -51,7 +51,10 @@ constexpr const char* kAnotherOpen = "another image was opened since; load the p
 }  // namespace
 
 Workspace::Workspace(Services services)
-    : services_(std::move(services)), recent_(services_.recent), arrangements_(services_.arrangements), outbox_(services_.outbox) {}
+    : services_(std::move(services)),
+      recent_(services_.recent),
+      arrangements_(services_.arrangements),
+      outbox_(services_.outbox) {}
 
 Workspace::Workspace(std::shared_ptr<Session> session) { adopt(std::move(session)); }
 

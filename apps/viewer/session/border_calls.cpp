@@ -73,7 +73,8 @@ std::vector<DrawnContour> carried_with(SessionState& s, const DrawnContour& cont
     for (const auto& [id, other] : state.contours) {
         const Structure& owner = structure_of(state, other->structure);
         const bool is_seen = other->visible && owner.visible && !owner.mask;  // masks to be corrected share no borders
-        if (other->structure == contour.structure || !is_seen || owner.attributes.review.locked || other->points.size() < 3) continue;
+        if (other->structure == contour.structure || !is_seen || owner.attributes.review.locked || other->points.size() < 3)
+            continue;
         if (!lies_in(*other, old.plane, slice_step_mm(s.image.voxels->grid, old.plane.normal))) continue;
         if (other->time != contour.time || !exclude(s, contour.structure, other->structure)) continue;
         if (auto moved = carried_along(*other, old, contour, near_mm, *s.edges_of(*other)))

@@ -23,8 +23,9 @@ json error_json(std::string_view kind, std::string_view message) {
 const Calls& all_calls() {
     static const Calls table = [] {
         Calls all;
-        for (const auto calls : {border_calls, contour_calls, history_calls, motion_calls, page_calls, point_calls, review_calls,
-                                 proposal_calls, rule_calls, second_image_calls, structure_calls, use_image_calls})
+        for (const auto calls :
+             {border_calls, contour_calls, history_calls, motion_calls, page_calls, point_calls, review_calls,
+              proposal_calls, rule_calls, second_image_calls, structure_calls, use_image_calls})
             all.merge(calls());
         return all;
     }();

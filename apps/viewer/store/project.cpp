@@ -20,7 +20,7 @@ constexpr int kApplicationId = 0x6b6f6e74;  // "kont"
 constexpr int kVersion = 1;                 // of a project without masks, which older versions of kontur can open
 constexpr int kVersionWithMasks = 2;        // the table is made with the first one
 constexpr int kVersionWithTimes = 3;        // since the first contour of another time; older ones would take it for any
-constexpr int kVersionWithRules = 4;  // since the first structure that a rule makes; older ones would see nothing of it
+constexpr int kVersionWithRules = 4;    // since the first structure that a rule makes; older ones would see nothing of it
 constexpr int kVersionWithReviews = 5;  // since something was first said in review; older ones would change what is locked
 constexpr int kNewestVersion = kVersionWithReviews;
 

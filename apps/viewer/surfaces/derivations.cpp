@@ -90,10 +90,7 @@ RuleMembers together(const std::map<Id, RuleTask>& tasks) {
 }  // namespace
 
 Derivations::Derivations(Sources sources, Listener listener, StatusListener status, std::shared_ptr<BodyOutlines> bodies)
-    : sources_(std::move(sources)),
-      listener_(std::move(listener)),
-      status_(std::move(status)),
-      bodies_(std::move(bodies)) {}
+    : sources_(std::move(sources)), listener_(std::move(listener)), status_(std::move(status)), bodies_(std::move(bodies)) {}
 
 Derivations::~Derivations() {
     {

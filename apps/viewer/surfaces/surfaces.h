@@ -140,8 +140,7 @@ struct SurfaceListener {
 /// that there are.
 class Surfaces {
 public:
-    explicit Surfaces(SurfaceListener listener,
-                      std::shared_ptr<BodyOutlines> bodies = std::make_shared<BodyOutlines>())
+    explicit Surfaces(SurfaceListener listener, std::shared_ptr<BodyOutlines> bodies = std::make_shared<BodyOutlines>())
         : listener_(std::move(listener)),
           motions_([this] { return next_revision(); },
                    [this](const std::shared_ptr<const Motion>& motion) {

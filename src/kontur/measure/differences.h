@@ -26,8 +26,8 @@ struct DifferencesOptions {
 
 /// The places where two masks of one grid differ, the farthest first, of equal ones the larger. Together they are all
 /// voxels that one mask alone has. None where a mask is empty: there is nothing then that the other could lie away from.
-/// Throws Error(invalid_input) as `compare`, and for a saddle out of (0, 1]. Exact on anisotropic, oblique and sheared grids;
-/// the same for any number of threads.
+/// Throws Error(invalid_input) as `compare`, and for a saddle out of (0, 1]. Exact on anisotropic, oblique and sheared
+/// grids; the same for any number of threads.
 std::vector<Difference> differences(const Mask& a, const Mask& b, const DifferencesOptions& options = {},
                                     const Work& work = {});
 

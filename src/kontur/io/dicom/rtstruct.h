@@ -67,9 +67,9 @@ struct WriteRtstructOptions {
 /// these name none, or another ROI has it, the lowest free one from 1 on; frames of reference and notes are not used.
 /// Contours nested on one plane are filled even-odd, whatever their `hole` says. Coordinates are exact to 1e-9 mm. Names
 /// have room for 64 characters, none of them a backslash; two that would become equal get a number. A ROI without a name is
-/// "Structure_1" by its place: plastimatch ends at an empty name. The file is approved if all ROIs are. Returns what the user
-/// should know, one sentence each: names and attributes that were changed, contours that lie on no slice, and images without
-/// a frame of reference, for which a new one is named. Throws Error(invalid_input), naming ROI and contour, for open
+/// "Structure_1" by its place: plastimatch ends at an empty name. The file is approved if all ROIs are. Returns what the
+/// user should know, one sentence each: names and attributes that were changed, contours that lie on no slice, and images
+/// without a frame of reference, for which a new one is named. Throws Error(invalid_input), naming ROI and contour, for open
 /// contours, fewer than 3 points, coordinates that are not finite and a hole that nothing encloses, for two ROIs with one
 /// number and for texts that are no UTF-8; Error(unsupported) for interior, exterior or surface points; Error(io). Source:
 /// DICOM PS3.3 A.19 and C.8.8.5 to C.8.8.8.

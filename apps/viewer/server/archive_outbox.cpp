@@ -45,22 +45,24 @@ nlohmann::json answer(const archive::Sent& sent, const std::string& host) {
     return {{"outcome", "refused"}, {"text", fmt::format("{} refused it: {}.", host, sent.reason)}};
 }
 
-}  // namespace
-
-ArchiveOutbox::ArchiveOutbox(fs::path folder) : folder_(std::move(folder)) {
-    if (folder_.empty()) folder_ = temporary_.emplace().path() / "outbox";
-}
-
-fs::path ArchiveOutbox::file_of(const NamedArchive& named, const Session& session, const std::string& name) const {
-    // A path or an address may have signs that no file's name has; this tells both apart from all others.
+/// A path or an address may have signs that no file's name has; this tells both apart from all others.
+std::string file_name(const NamedArchive& named, const Session& session, const std::string& name) {
     Sha256 digest;
     const std::string whose = named.service.service + "\n" + fs::absolute(session.project_path()).string();
     digest.update(std::as_bytes(std::span(whose)));
-    return folder_ / fmt::format("{}_{}", digest.hex().substr(0, 32), name);
+    return fmt::format("{}_{}", digest.hex().substr(0, 32), name);
+}
+
+}  // namespace
+
+fs::path ArchiveOutbox::folder() {
+    const std::scoped_lock lock(mutex_);
+    if (folder_.empty()) folder_ = temporary_.emplace().path() / "outbox";
+    return folder_;
 }
 
 nlohmann::json ArchiveOutbox::send(const NamedArchive& named, Session& session, const Item& item, const StopToken& stop) {
-    const fs::path file = file_of(named, session, item.name);
+    const fs::path file = folder() / file_name(named, session, item.name);
     std::error_code ignored;
     if (!item.is_again || !fs::exists(file, ignored)) {
         try {
@@ -78,9 +80,11 @@ nlohmann::json ArchiveOutbox::send(const NamedArchive& named, Session& session, 
 
 std::vector<std::string> ArchiveOutbox::waiting(const NamedArchive& named, const Session& session) const {
     std::vector<std::string> names;
+    const std::scoped_lock lock(mutex_);
+    if (folder_.empty()) return names;
     std::error_code ignored;
     for (const std::string name : kNames)
-        if (fs::exists(file_of(named, session, name), ignored)) names.push_back(name);
+        if (fs::exists(folder_ / file_name(named, session, name), ignored)) names.push_back(name);
     return names;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kontur/base/stop.h"
@@ -25,7 +27,7 @@ public:
     };
 
     /// An empty path: it is kept until kontur ends.
-    explicit ArchiveOutbox(std::filesystem::path folder = {});
+    explicit ArchiveOutbox(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
     /// `outcome` and a sentence as `text`: what the archive answers. Throws what the export and `send_object` throw, and
     /// Error(io) where nothing can be kept.
@@ -35,10 +37,11 @@ public:
     std::vector<std::string> waiting(const NamedArchive& named, const Session& session) const;
 
 private:
-    std::filesystem::path file_of(const NamedArchive& named, const Session& session, const std::string& name) const;
+    std::filesystem::path folder();
 
+    mutable std::mutex mutex_;  ///< of what follows
     std::optional<TemporaryFolder> temporary_;
-    std::filesystem::path folder_;
+    std::filesystem::path folder_;  ///< empty: there is none yet
 };
 
 }  // namespace kontur::viewer

@@ -62,7 +62,10 @@ std::set<Id> changed_by(const SessionState& s, const Commit& step, const std::se
 /// What the step makes of the structure so far; null where it removes it.
 Structure* after_of(Commit& step, const Structure& now) {
     const auto own = std::ranges::find(step.structures, now.id, &Change<Structure>::id);
-    if (own == step.structures.end()) return &*step.structures.emplace_back(now.id, now, now).after;
+    if (own == step.structures.end()) {
+        step.structures.push_back({now.id, now, now});
+        return &*step.structures.back().after;
+    }
     return own->after ? &*own->after : nullptr;
 }
 

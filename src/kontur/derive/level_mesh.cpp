@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "kontur/extract/polygonize.h"
 #include "kontur/shape/index_box.h"
@@ -10,17 +13,18 @@
 namespace kontur {
 namespace {
 
-/// Values on both sides of the cells that the surface passes, which is what normals need.
-void set_values_around(SurfaceLattice& surface, const Levels& levels, const Index3& cell) {
-    for (std::int64_t k = -1; k <= 2; ++k)
-        for (std::int64_t j = -1; j <= 2; ++j)
-            for (std::int64_t i = -1; i <= 2; ++i) {
-                const Index3 at{cell.i + i, cell.j + j, cell.k + k};
-                if (surface.lattice.in_grid(at))
-                    surface.lattice.set_value(
-                        at, levels.values[levels.offset(
-                                {at.i + levels.box.low.i, at.j + levels.box.low.j, at.k + levels.box.low.k})]);
-            }
+/// Values on both sides of the cells that the surface passes, which is what normals need; each once, as cells beside each
+/// other have most of them in common.
+void set_values_around(SurfaceLattice& surface, const Levels& levels) {
+    std::vector<std::uint8_t> is_set(levels.values.size());
+    const Index3 size = levels.box.size();
+    for (const Index3& cell : surface.cells)
+        for (std::int64_t k = std::max<std::int64_t>(cell.k - 1, 0); k <= std::min(cell.k + 2, size.k - 1); ++k)
+            for (std::int64_t j = std::max<std::int64_t>(cell.j - 1, 0); j <= std::min(cell.j + 2, size.j - 1); ++j)
+                for (std::int64_t i = std::max<std::int64_t>(cell.i - 1, 0); i <= std::min(cell.i + 2, size.i - 1); ++i) {
+                    const auto at = static_cast<std::size_t>(i + size.i * (j + size.j * k));
+                    if (std::exchange(is_set[at], 1) == 0) surface.lattice.set_value({i, j, k}, levels.values[at]);
+                }
 }
 
 }  // namespace
@@ -47,7 +51,7 @@ TriangleMesh level_mesh(const Levels& levels, const Grid& lattice, const Work& w
             }
         }
     }
-    for (const Index3& cell : surface.cells) set_values_around(surface, levels, cell);
+    set_values_around(surface, levels);
     return polygonize(surface);
 }
 

@@ -3,7 +3,8 @@ import type { Project } from "../model/project";
 import type { Maker } from "../net/calls";
 import type { Approval, Structure } from "../net/protocol";
 import { button, buttonPiece, el } from "../dom/dom";
-import { piece, type Piece } from "../dom/pieces";
+import { ICONS } from "../dom/icons";
+import { iconPiece, piece, type Piece } from "../dom/pieces";
 import { openDialog } from "./dialogs";
 
 const MOST_NAME = 64; // characters, of DICOM's names of persons
@@ -17,15 +18,15 @@ export interface ReviewServices {
 /** "Doe, 2026-11-30 21:02". */
 const words = ({ by, at }: Approval): string => [by || "somebody", at.replace("T", " ").slice(0, 16)].filter((word) => word !== "").join(", ");
 
+const mark = (which: "approved" | "locked", icon: string, title: string): Piece =>
+  piece("span", { key: which, class: `review-mark ${which}`, role: "img", "data-test": `is-${which}`, title, "aria-label": title }, iconPiece(icon));
+
 /** Beside the name of a structure: that it is locked, and that somebody approved it. */
-export function reviewFlags({ review }: Structure): Piece[] {
-  const flags: Piece[] = [];
-  if (review?.approved)
-    flags.push(
-      piece("span", { key: "approved", class: "flag approved", "data-test": "is-approved", title: `Approved by ${words(review.approved)}` }, "approved"),
-    );
-  if (review?.locked) flags.push(piece("span", { key: "locked", class: "flag rule", "data-test": "is-locked", title: "Nothing changes it" }, "locked"));
-  return flags;
+export function reviewMarks({ review }: Structure): Piece[] {
+  const marks: Piece[] = [];
+  if (review?.approved) marks.push(mark("approved", ICONS.approved, `Approved by ${words(review.approved)}`));
+  if (review?.locked) marks.push(mark("locked", ICONS.locked, "Locked: nothing changes it"));
+  return marks;
 }
 
 /** What reviewers can say of the active structure, and have said. */
@@ -42,7 +43,7 @@ export function reviewRows(structure: Structure, services: ReviewServices): Piec
     click: () => call("structure.review", { id, locked: !locked }),
   });
   const approve = buttonPiece({
-    label: approved ? "Not approved" : "Approve",
+    label: approved ? "Take back" : "Approve",
     title: approved ? `Take the approval by ${words(approved)} back` : `Say that ${name} is right as it is`,
     class: "choice",
     test: "approve",
@@ -55,7 +56,7 @@ export function reviewRows(structure: Structure, services: ReviewServices): Piec
     test: "comment",
     click: () => askComment(structure, services),
   });
-  const rows: Piece[] = [piece("div", { key: "review", class: "structure-look" }, lock, approve, say)];
+  const rows: Piece[] = [piece("div", { key: "review", class: "structure-look review-buttons" }, lock, approve, say)];
   if (approved) rows.push(piece("p", { key: "approval", class: "review-text", "data-test": "approval" }, `Approved by ${words(approved)}`));
   if (comment !== "") rows.push(piece("p", { key: "comment", class: "review-text", "data-test": "comment-text" }, comment));
   return rows;

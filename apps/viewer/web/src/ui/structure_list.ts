@@ -9,7 +9,7 @@ import { confirmedPlaneRows } from "./corrections";
 import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "../dom/icons";
 import { piece, render, type Piece } from "../dom/pieces";
-import { reviewFlags, reviewRows } from "./reviews";
+import { reviewMarks, reviewRows } from "./reviews";
 import { ruleFlag, ruleRow, type RuleRowServices } from "./rule_rows";
 import { keepSliderKeys } from "./second_image_card";
 import { singlePointRows } from "./single_points";
@@ -272,7 +272,7 @@ export class StructureList {
       this.refresh();
     };
     return [
-      ...reviewFlags(structure),
+      ...reviewMarks(structure),
       ...(structure.mask ? [piece("span", { class: "flag", "data-test": "is-mask", title: "A mask: what is drawn into it corrects it" }, "mask")] : []),
       structure.rule === undefined
         ? buttonPiece({

@@ -64,6 +64,7 @@ test("a planner's day", async (t) => {
   const choose = (name: string) => page.locator(".structure-row button.name", { hasText: new RegExp(`^${name}$`) }).click();
   const add = async (name: string) => {
     await page.click("[data-test=add-structure]");
+    await page.locator("input.name:focus").waitFor();
     await page.keyboard.type(name);
     await page.keyboard.press("Enter");
   };
@@ -84,14 +85,16 @@ test("a planner's day", async (t) => {
   const cord = await viewer.pixels("axial", 8);
   const aside = await viewer.pixels("axial", 38);
   const outline = circle(cord, 24).map(([x, y]): [number, number] => [x - aside, y]);
-  await page.mouse.move(...(await viewer.at("axial", 0, 0)));
-  await page.keyboard.press("PageUp");
-  await viewer.drag("axial", outline);
-  await viewer.waitForStep("undo", "Draw a contour");
-  for (const _ of [1, 2]) await page.keyboard.press("PageDown");
-  await viewer.slicesShown();
-  await viewer.drag("axial", outline);
-  await page.keyboard.press("PageUp");
+  for (const [count, keys] of [
+    [3, ["PageUp"]],
+    [4, ["PageDown", "PageDown"]],
+    [5, ["PageUp"]],
+  ] as const) {
+    await viewer.drag("axial", outline);
+    await viewer.waitForContours(count);
+    for (const key of keys) await page.keyboard.press(key);
+    await viewer.slicesShown();
+  }
   await viewer.saved();
   await viewer.surfaceShown();
 

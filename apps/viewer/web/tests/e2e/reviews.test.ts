@@ -94,6 +94,7 @@ test("a change takes an approval back and says so, undo restores it, and it is t
 test("all views go from one difference of two readers to the next, the largest first", async () => {
   const { page } = viewer;
   await page.click("[data-test=add-structure]");
+  await page.locator("input.name:focus").waitFor();
   await page.keyboard.type("Reader 2");
   await page.keyboard.press("Enter");
   const radius = await viewer.pixels("axial", BALL_RADIUS_MM / 2);

@@ -123,6 +123,7 @@ test("errors point at their place, circles name their members, and what is used 
 test("menus write the line", async () => {
   const { page } = viewer;
   await page.click("[data-test=add-structure]");
+  await page.locator("input.name:focus").waitFor();
   await page.keyboard.type("Cord");
   await page.keyboard.press("Enter");
   await viewer.drawBall("sagittal", 3, 10);

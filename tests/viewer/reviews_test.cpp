@@ -99,9 +99,10 @@ TEST(Reviews, ALockedStructureMayLookOtherwiseAndTakesNoOthersLine) {
     visit.done({{"call", "contour.set"}, {"id", visit.contour}, {"visible", false}});
     visit.done({{"call", "structure.review"}, {"id", visit.tumour}, {"comment", "to the rim"}});
     EXPECT_EQ(visit.review(visit.tumour).comment, "to the rim");
-    for (const auto& [id, contour] : visit.session->state().contours)
-        if (contour->structure == other)
-            EXPECT_NE(visit.refusal({{"call", "contour.set"}, {"id", id}, {"structure", visit.tumour}}), "");
+    for (const auto& [id, contour] : visit.session->state().contours) {
+        if (contour->structure != other) continue;
+        EXPECT_NE(visit.refusal({{"call", "contour.set"}, {"id", id}, {"structure", visit.tumour}}), "");
+    }
 }
 
 TEST(Reviews, TellWhoApprovedAndWhen) {

@@ -58,7 +58,8 @@ struct Visit {
     }
     json shift() { return done(move()); }
     json greeting(Id id) {
-        for (const json& one : json::parse(session->greeting())["structures"])
+        const json greeting = json::parse(session->greeting());
+        for (const json& one : greeting["structures"])
             if (one["id"] == id) return one;
         return nullptr;
     }

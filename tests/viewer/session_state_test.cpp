@@ -22,7 +22,7 @@ using nlohmann::json;
 TEST(Calls, EachCallOfTheProtocolIsInTheTableOfOneFile) {
     std::size_t count = 0;
     for (const auto calls : {border_calls, contour_calls, history_calls, motion_calls, page_calls, point_calls,
-                             proposal_calls, rule_calls, second_image_calls, structure_calls, use_image_calls})
+                             proposal_calls, review_calls, rule_calls, second_image_calls, structure_calls, use_image_calls})
         for (const auto& [name, call] : calls()) {
             EXPECT_TRUE(call_types().contains(name)) << name;
             EXPECT_NE(call.carry_out, nullptr) << name;

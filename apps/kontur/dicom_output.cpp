@@ -35,11 +35,15 @@ WriteDicomSegOptions seg_options(const SeriesWords& series, const Provenance& ma
     return options;
 }
 
+std::string text_of(const Provenance& provenance) {
+    std::string text;
+    for (const auto& [name, value] : provenance) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name, value);
+    return text;
+}
+
 /// What makes a fit reproducible.
 std::string parameters(const SegmentReport& report, const Provenance& provenance) {
-    std::string text = fmt::format("contours={} points={}", report.contours, report.points);
-    for (const auto& [name, value] : provenance) text += fmt::format("; {}: {}", name, value);
-    return text;
+    return fmt::format("contours={} points={}; {}", report.contours, report.points, text_of(provenance));
 }
 
 }  // namespace
@@ -149,6 +153,19 @@ std::vector<std::string> write_mask(const OutputFile& file, const Segmentation& 
     WriteDicomSegOptions write = seg_options(series, provenance);
     write.algorithm = algorithm;
     return write_dicom_seg(path, {{result.mask.grid, result.mask.values}, {segment}}, series_of(images), write, work);
+}
+
+std::vector<std::string> write_masks_over_time(const OutputFile& file, std::span<const Mask> masks,
+                                               const StructureAttributes& attributes, const WriteMaskOptions& options,
+                                               const Work& work) {
+    const auto& [path, images, series, provenance] = file;
+    DicomSegment segment = fitted_segment(attributes);
+    segment.label = options.segment_name;
+    segment.color = to_rgb8(options.segment_color);
+    WriteDicomSegOptions write = seg_options(series, provenance);
+    write.algorithm = {"kontur variational interpolation over time", KONTUR_VERSION, text_of(provenance)};
+    const std::vector<DicomSeries> volumes = list_dicom_volumes(images.path, images.options.dicom, work);
+    return write_dicom_seg_over_time(path, {masks, segment, volumes}, write, work);
 }
 
 std::vector<std::string> write_image(const OutputFile& file, const Image& image, const ImageInput& source,

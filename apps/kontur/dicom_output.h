@@ -68,6 +68,11 @@ std::vector<std::string> write_mask(const OutputFile& file, const Segmentation& 
                                     const StructureAttributes& attributes, const WriteMaskOptions& options,
                                     const Work& work);
 
+/// Writes masks of a fit over time as a DICOM segmentation with one segment, on volumes of a series.
+std::vector<std::string> write_masks_over_time(const OutputFile& file, std::span<const Mask> masks,
+                                               const StructureAttributes& attributes, const WriteMaskOptions& options,
+                                               const Work& work);
+
 /// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label,
 /// named as in the source where that names them. In NIfTI these names go into a table.
 std::vector<std::string> write_image(const OutputFile& file, const Image& image, const ImageInput& source,

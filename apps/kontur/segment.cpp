@@ -158,7 +158,7 @@ void check_words(const SegmentCommand& command) {
     if (command.image.path.empty())
         for (const fs::path& path : {command.output, command.rtstruct}) check_dicom_images(path, {});
     if (!command.mesh.empty()) check_output_kind(command.mesh, FileKind::mesh);
-    if (!command.picture.empty()) check_extension(command.picture, ".png");
+    if (!command.picture.empty() && !is_animation(command)) check_extension(command.picture, ".png");
     if (!command.uncertainty.empty()) {
         if (is_mesh_name(command.uncertainty)) check_extension(command.uncertainty, ".ply");
         else check_image_name(command.uncertainty);
@@ -189,6 +189,9 @@ void run(const SegmentCommand& words, Console& console) {
     ReadContours contours = read_contours_to_fit(command.contours, command.read);
     if (is_moving(command, contours.contours)) return segment_moving(command, std::move(contours), console);
     if (command.cycle) throw Error(ErrorKind::invalid_input, "--cycle is for contours that were drawn at several moments");
+    if (is_animation(command))
+        throw Error(ErrorKind::invalid_input, fmt::format("{} would move, and contours are of one moment; a .png does not",
+                                                          command.picture.string()));
     const Work work = console.work(command.threads);
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch reading(seconds);

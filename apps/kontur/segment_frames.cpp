@@ -3,15 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "contour_files.h"
+#include "dicom_output.h"
+#include "frames_picture.h"
 #include "input_digests.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/image_frames.h"
+#include "kontur/io/meshes/mesh.h"
 #include "kontur/segment_moving.h"
 #include "kontur/segment_report.h"
 #include "outputs.h"
@@ -47,6 +51,22 @@ std::vector<double> times_of(const SegmentCommand& command, const ContourSet& co
     return times;
 }
 
+/// "liver_frame_07.stl" of 12 for "liver.stl".
+fs::path frame_path(const fs::path& path, std::size_t frame, std::size_t count) {
+    const std::size_t digits = std::to_string(count).size();
+    return path.parent_path() /
+           fmt::format("{}_frame_{:0{}}{}", path.stem().string(), frame + 1, digits, path.extension().string());
+}
+
+/// None without --mesh.
+std::vector<fs::path> mesh_paths(const SegmentCommand& command, const ImageFrames& frames) {
+    std::vector<fs::path> paths;
+    if (command.mesh.empty()) return paths;
+    const auto count = static_cast<std::size_t>(frames.count);
+    for (std::size_t n = 0; n < count; ++n) paths.push_back(frame_path(command.mesh, n, count));
+    return paths;
+}
+
 std::string json_of(const MovingSegmentation& result, const Provenance& made) {
     nlohmann::ordered_json report;
     const VolumeCurve& curve = result.volumes;
@@ -67,6 +87,14 @@ std::string json_of(const MovingSegmentation& result, const Provenance& made) {
     report["smallest_frame"] = curve.smallest + 1;
     report["stroke_ml"] = curve.stroke_ml();
     report["ejection_fraction"] = curve.ejection_fraction();
+    for (const VolumeInterval& one : curve.intervals) {
+        report["volumes_low_ml"].push_back(one.low_ml);
+        report["volumes_high_ml"].push_back(one.high_ml);
+    }
+    if (const auto interval = curve.ejection_interval()) {
+        report["ejection_fraction_low"] = interval->low;
+        report["ejection_fraction_high"] = interval->high;
+    }
     report["warnings"] = result.warnings;
     for (const auto& [stage, seconds] : result.seconds) report["seconds"][stage] = seconds;
     for (const auto& [name, value] : made) report["provenance"][name] = value;
@@ -77,15 +105,22 @@ std::string summary_of(const SegmentCommand& command, const MovingSegmentation& 
     const VolumeCurve& curve = result.volumes;
     std::string text = fmt::format("{}: {}, {} drawn\n", command.output.string(), counted(result.masks.size(), "frame"),
                                    counted(result.moments.size(), "moment"));
-    for (const fs::path& path : {command.volumes, command.report})
+    if (!result.meshes.empty() && !command.mesh.empty())
+        text += fmt::format("{}: {}\n", frame_path(command.mesh, 0, result.meshes.size()).string(),
+                            counted(result.meshes.size(), "surface"));
+    for (const fs::path& path : {command.picture, command.volumes, command.report})
         if (!path.empty()) text += path.string() + "\n";
     text += fmt::format("largest in frame {} ({:.4g} ml), smallest in frame {} ({:.4g} ml)\n", curve.largest + 1,
                         curve.volumes_ml[curve.largest], curve.smallest + 1, curve.volumes_ml[curve.smallest]);
-    return text + fmt::format("stroke volume {:.4g} ml, ejection fraction {:.1f} %\n", curve.stroke_ml(),
-                              100 * curve.ejection_fraction());
+    const auto interval = curve.ejection_interval();
+    return text + fmt::format("stroke volume {:.4g} ml, ejection fraction {:.1f} %{}\n", curve.stroke_ml(),
+                              100 * curve.ejection_fraction(),
+                              interval ? fmt::format(" ({:.1f} to {:.1f})", 100 * interval->low, 100 * interval->high) : "");
 }
 
 }  // namespace
+
+bool is_animation(const SegmentCommand& command) { return has_extension(command.picture, ".apng"); }
 
 bool is_moving(const SegmentCommand& command, const ContourSet& contours) {
     return kontur::is_moving(contours) || !command.volumes.empty();
@@ -99,11 +134,10 @@ void check_moving_words(const SegmentCommand& command) {
     if (const auto& volume = command.image.options.dicom.volume)
         refuse(fmt::format("--volume {} chooses one volume, and contours were drawn in several; leave it out", *volume));
     for (const auto& [option, path] :
-         {std::pair("--mesh", &command.mesh), std::pair("--picture", &command.picture),
-          std::pair("--rtstruct", &command.rtstruct), std::pair("--uncertainty", &command.uncertainty)})
+         {std::pair("--rtstruct", &command.rtstruct), std::pair("--uncertainty", &command.uncertainty)})
         if (!path->empty())
             refuse(fmt::format("{} is of one moment, and contours were drawn at several; leave it out", option));
-    check_frames_name(command.output);
+    if (!is_dicom_name(command.output)) check_frames_name(command.output);
 }
 
 void segment_moving(const SegmentCommand& command, ReadContours read, Console& console) {
@@ -121,14 +155,28 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     const ImageFrames frames = read_image_frames(command.image.path, image, work);
     const Grid grid = read_grid(command.image.path, of_frame(image, frames, 1), work);
     choose_cycle(command, contours, frames, notes);
+    std::vector<fs::path> inputs = command.contours;
+    inputs.push_back(command.image.path);
+    const std::vector<fs::path> meshes = mesh_paths(command, frames);
+    check_outputs(meshes, inputs);
     SegmentOptions options = command.options;
     options.drawn_on = grid;
+    options.mesh = !command.mesh.empty() || !command.picture.empty();
     reading.lap("read");
-    MovingSegmentation result = kontur::segment_moving(contours, grid, times_of(command, contours, frames), options, work);
+    const std::vector<double> times = times_of(command, contours, frames);
+    const auto image_at = [&](double time) -> std::shared_ptr<const Image> {
+        const auto found = std::find(times.begin(), times.end(), time);
+        if (found == times.end()) return nullptr;
+        return std::make_shared<const Image>(
+            read_image(command.image.path, of_frame(command.image.options, frames, found - times.begin() + 1), work));
+    };
+    MovingSegmentation result = kontur::segment_moving(contours, {grid, image_at}, times, options, work);
     result.seconds.insert(result.seconds.begin(), seconds.begin(), seconds.end());
     put_notes_first(notes, result.warnings);
 
     WriteMaskOptions mask = command.mask;
+    if (!contours.name.empty()) mask.segment_name = contours.name;
+    if (const auto& color = contours.attributes.color) mask.segment_color = to_levels(*color);
     mask.provenance = provenance(contours, grid, result.moments.front().segmentation.report);
     for (auto& digest : input_digests(command, work)) mask.provenance.push_back(std::move(digest));
     if (command.date) mask.provenance.emplace_back("date", utc_date());
@@ -137,7 +185,17 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
         if (!target.empty()) outputs.write(target, writer);
         work.check();
     };
-    write(command.output, [&](const fs::path& path) { write_masks(path, result.masks, frames.step_s, mask); });
+    write(command.output, [&](const fs::path& path) {
+        if (!is_dicom_name(path)) return write_masks(path, result.masks, frames.step_s, mask);
+        for (std::string& note : write_masks_over_time({path, command.image, command.series, mask.provenance}, result.masks,
+                                                       contours.attributes, mask, work))
+            result.warnings.push_back(std::move(note));
+    });
+    for (std::size_t n = 0; n < meshes.size(); ++n)
+        write(meshes[n], [&](const fs::path& path) { write_mesh(path, result.meshes[n], mask.provenance); });
+    write(command.picture, [&](const fs::path& path) {
+        write_picture_of_frames(path, {command, contours, frames, result}, mask.provenance, work);
+    });
     write(command.volumes, [&](const fs::path& path) {
         write_file_atomically(path, volumes_csv(result.times, result.volumes, result.moments, frames.step_s));
     });

@@ -8,6 +8,9 @@ namespace kontur::app {
 /// Whether contours of several moments were drawn, or a curve over time is wanted.
 bool is_moving(const SegmentCommand& command, const ContourSet& contours);
 
+/// Whether its picture is to move (.apng).
+bool is_animation(const SegmentCommand& command);
+
 /// Throws Error(invalid_input) for options of `segment` that are about one moment alone.
 void check_moving_words(const SegmentCommand& command);
 

@@ -70,15 +70,29 @@ ndarray, shape (...), float64
 }
 
 void bind_results(py::module_& m) {
+    py::class_<VolumeInterval> interval(m, "VolumeInterval", "The true volume lies within in 90 %.");
+    Fields(interval)
+        .field("low_ml", &VolumeInterval::low_ml, "float")
+        .field("high_ml", &VolumeInterval::high_ml, "float")
+        .picklable();
     py::class_<VolumeCurve> curve(m, "VolumeCurve", "A volume over time.");
     Fields(curve)
         .field("volumes_ml", &VolumeCurve::volumes_ml, "list of float: of the masks.")
-        .field("largest", &VolumeCurve::largest, "int: which of them, from 0.")
+        .field("intervals", &VolumeCurve::intervals,
+               "list of VolumeInterval: of each; none where a moment has too few planes to tell.")
+        .field("largest", &VolumeCurve::largest, "int: which of them, from 0; the first one of a tie.")
         .field("smallest", &VolumeCurve::smallest, "int")
         .picklable();
     curve.def_property_readonly("stroke_ml", &VolumeCurve::stroke_ml, "float: the largest less the smallest.");
     curve.def_property_readonly("ejection_fraction", &VolumeCurve::ejection_fraction,
                                 "float: of the largest volume, from 0 to 1.");
+    curve.def_property_readonly(
+        "ejection_interval",
+        [](const VolumeCurve& c) -> std::optional<std::pair<double, double>> {
+            const auto found = c.ejection_interval();
+            return found ? std::optional(std::pair(found->low, found->high)) : std::nullopt;
+        },
+        "(float, float) or None: it lies within in 90 %.");
     py::class_<DrawnMoment> moment(m, "DrawnMoment", "A moment at which something was drawn.");
     moment.def_readonly("time", &DrawnMoment::time, "float: frame, from 1, or seconds.");
     moment.def_readonly("contours", &DrawnMoment::contours, "int: drawn at it.");
@@ -87,6 +101,7 @@ void bind_results(py::module_& m) {
     py::class_<MovingSegmentation> type(m, "MovingSegmentation", "What `segment_moving` made.");
     type.def_readonly("times", &MovingSegmentation::times, "list of float");
     type.def_readonly("masks", &MovingSegmentation::masks, "list of Mask: at these times.");
+    type.def_readonly("meshes", &MovingSegmentation::meshes, "list of TriangleMesh: at these times, with `mesh`; else none.");
     type.def_readonly("function", &MovingSegmentation::function, "MovingFunction: f(x, t) > 0 inside.");
     type.def_readonly("moments", &MovingSegmentation::moments, "list of DrawnMoment");
     type.def_readonly("volumes", &MovingSegmentation::volumes, "VolumeCurve: at these times.");

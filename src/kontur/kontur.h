@@ -39,6 +39,7 @@
 #include "kontur/live_editor.h"
 #include "kontur/segment.h"
 #include "kontur/segment_moving.h"
+#include "kontur/volume_curve.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
 #include "kontur/segment_together.h"

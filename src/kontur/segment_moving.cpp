@@ -9,6 +9,7 @@
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
+#include "kontur/base/smallest_ball.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/moving/carried_sections.h"
 #include "kontur/moving/moments.h"
@@ -16,6 +17,8 @@
 
 namespace kontur {
 namespace {
+
+constexpr double kFrameMeshSpacing = 0.01;  // of the diameter of what was drawn
 
 void check(const ContourSet& contours, const Moments& moments, std::span<const double> times) {
     if (const std::vector<std::string> problems = contour_problems(contours); !problems.empty())
@@ -53,18 +56,12 @@ ContourSet in_order_of_time(const ContourSet& set, Moments& moments) {
     return ordered;
 }
 
-/// The motion between whole moments.
-std::optional<MovingFunction> between_whole(const Moments& moments, const DrawnMoments& drawn,
-                                            const std::vector<DrawnMoment>& made) {
-    std::vector<double> times;
-    std::vector<ImplicitFunction> functions;
-    for (std::size_t k = 0; k < made.size(); ++k)
-        if (drawn.is_whole[k]) {
-            times.push_back(made[k].time);
-            functions.push_back(made[k].segmentation.function);
-        }
-    if (times.empty()) return std::nullopt;
-    return MovingFunction(TimeCourse(std::move(times), moments.course.cycle()), std::move(functions));
+/// The motion between moments as far as they stand for themselves.
+WholeMotion whole_motion(const DrawnMoments& drawn, const std::vector<DrawnMoment>& alone) {
+    std::vector<std::optional<ImplicitFunction>> functions(alone.size());
+    for (std::size_t k = 0; k < alone.size(); ++k)
+        if (drawn.weights[k] > 0) functions[k] = alone[k].segmentation.function;
+    return {drawn.moments.course, std::move(functions), drawn.weights};
 }
 
 std::string moment_name(const Moments& moments, double time) {
@@ -91,8 +88,7 @@ std::vector<std::string> warnings_of(const Moments& moments, const std::vector<D
 }
 
 /// The masks of a moving object at all times.
-std::vector<Mask> masks_at(std::span<const double> times, const MovingFit& fit, const Work& work) {
-    const MaskCourse course = fit.mask_course(work);
+std::vector<Mask> masks_at(std::span<const double> times, const MaskCourse& course, const Work& work) {
     std::vector<Mask> masks(times.size());
     parallel_for(static_cast<std::int64_t>(times.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
@@ -101,36 +97,28 @@ std::vector<Mask> masks_at(std::span<const double> times, const MovingFit& fit, 
     return masks;
 }
 
+std::vector<TriangleMesh> meshes_at(std::span<const double> times, const MeshCourse& course, const Work& work) {
+    std::vector<TriangleMesh> meshes(times.size());
+    parallel_for(static_cast<std::int64_t>(times.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
+        for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+            meshes[n] = course.at(times[n]);
+    });
+    return meshes;
+}
+
 }  // namespace
-
-VolumeCurve volume_curve(std::vector<double> volumes_ml) {
-    VolumeCurve curve;
-    curve.volumes_ml = std::move(volumes_ml);
-    const auto [least, most] = std::minmax_element(curve.volumes_ml.begin(), curve.volumes_ml.end());
-    curve.smallest = static_cast<std::size_t>(least - curve.volumes_ml.begin());
-    curve.largest = static_cast<std::size_t>(std::find(curve.volumes_ml.begin(), curve.volumes_ml.end(), *most) -
-                                             curve.volumes_ml.begin());
-    return curve;
-}
-
-std::string volumes_csv(const std::vector<double>& times, const VolumeCurve& curve, const std::vector<DrawnMoment>& moments,
-                        const std::optional<double>& step_s) {
-    std::string text = "frame,time_s,volume_ml,contours,phase\n";
-    for (std::size_t n = 0; n < times.size(); ++n) {
-        std::size_t contours = 0;
-        for (const DrawnMoment& moment : moments) contours += moment.time == times[n] ? moment.contours : 0;
-        const char* phase = n == curve.largest ? "largest" : n == curve.smallest ? "smallest" : "";
-        text +=
-            fmt::format("{},{},{:.3f},{},{}\n", n + 1, step_s ? fmt::format("{:g}", static_cast<double>(n) * *step_s) : "",
-                        curve.volumes_ml[n], contours, phase);
-    }
-    return text;
-}
 
 MaskCourse MovingFit::mask_course(const Work& work) const {
     std::vector<Mask> masks;
     for (const DrawnMoment& moment : moments) masks.push_back(moment.segmentation.mask);
     return {function, std::move(masks), work};
+}
+
+MeshCourse MovingFit::mesh_course(const Work& work) const {
+    const std::vector<std::vector<Vec3>> points = starts();
+    std::vector<Vec3> all;
+    for (const std::vector<Vec3>& some : points) all.insert(all.end(), some.begin(), some.end());
+    return {function, points, kFrameMeshSpacing * smallest_ball(all).diameter(), work};
 }
 
 std::vector<std::vector<Vec3>> MovingFit::starts() const {
@@ -143,12 +131,17 @@ std::vector<std::vector<Vec3>> MovingFit::starts() const {
     return all;
 }
 
-DrawnMoment MovingFitter::fitted(ContourSet set, const Work& work) const {
+DrawnMoment MovingFitter::fitted(ContourSet set, double time, bool follows_image, const Work& work) const {
     const std::string digest = contours_sha256(set);
-    for (const DrawnMoment& known : known_)
-        if (contours_sha256(known.set) == digest) return known;
+    const bool asks_image = follows_image && frames_.image_at && options_.use_image != UseImage::off;
+    for (const DrawnMoment& known : known_) {
+        const bool asked_image = known.segmentation.report.image.verdict != ImageVerdict::none;
+        if (asked_image == asks_image && (!asks_image || known.time == time) && contours_sha256(known.set) == digest)
+            return known;
+    }
+    const std::shared_ptr<const Image> image = asks_image ? frames_.image_at(time) : nullptr;
     DrawnMoment moment;
-    moment.segmentation = segment(set, grid_, options_, work.untold());
+    moment.segmentation = segment(set, frames_.grid, image.get(), options_, work.untold());
     moment.set = std::move(set);
     return moment;
 }
@@ -163,27 +156,28 @@ MovingFit MovingFitter::fit(const ContourSet& drawn_contours, std::span<const do
     std::vector<DrawnMoment> made(drawn.sets.size());
     const auto fit_moment = [&](std::size_t k, std::size_t carried) {
         work.report("segment moments", static_cast<double>(k) / static_cast<double>(made.size()));
-        made[k] = fitted(drawn.sets[k], work);
-        made[k].time = moments.course.times()[k];
+        const double time = moments.course.times()[k];
+        made[k] = fitted(drawn.sets[k], time, drawn.weights[k] == 1, work);
+        made[k].time = time;
         made[k].carried = carried;
         made[k].contours = made[k].set.contours.size() - carried;
     };
-    for (std::size_t k = 0; k < made.size(); ++k) {
-        made[k].time = moments.course.times()[k];
-        if (drawn.is_whole[k]) fit_moment(k, 0);
-    }
+    for (std::size_t k = 0; k < made.size(); ++k)
+        if (drawn.weights[k] > 0) fit_moment(k, 0);
     watch.lap("whole moments");
-    const std::optional<MovingFunction> whole = between_whole(moments, drawn, made);
+    const std::vector<DrawnMoment> alone = made;
     const std::vector<std::vector<Contour>> carried =
-        carried_sections(contours, drawn, whole ? &*whole : nullptr, options_.fill_rule, work);
+        carried_sections(contours, drawn, whole_motion(drawn, alone), options_.fill_rule, work);
     watch.lap("carry sections");
     for (std::size_t k = 0; k < made.size(); ++k) {
-        if (drawn.is_whole[k]) continue;
+        if (drawn.weights[k] == 1 || (drawn.weights[k] > 0 && carried[k].empty())) continue;
         drawn.sets[k].contours.insert(drawn.sets[k].contours.end(), carried[k].begin(), carried[k].end());
         fit_moment(k, carried[k].size());
     }
     watch.lap("other moments");
     known_ = made;
+    for (std::size_t k = 0; k < made.size(); ++k)
+        if (made[k].carried > 0 && drawn.weights[k] > 0) known_.push_back(alone[k]);
     std::vector<ImplicitFunction> functions;
     for (const DrawnMoment& moment : made) functions.push_back(moment.segmentation.function);
     MovingFunction function(moments.course, std::move(functions));
@@ -191,18 +185,25 @@ MovingFit MovingFitter::fit(const ContourSet& drawn_contours, std::span<const do
     return {std::move(function), std::move(made), std::move(warnings), std::move(seconds)};
 }
 
-MovingSegmentation segment_moving(const ContourSet& contours, const Grid& grid, std::span<const double> times,
+MovingSegmentation segment_moving(const ContourSet& contours, const FramesToSegment& frames, std::span<const double> times,
                                   const SegmentOptions& options, const Work& work) {
     SegmentOptions by_contours = options;
     by_contours.mesh = false;
-    MovingFit fit = MovingFitter(grid, by_contours).fit(contours, times, work);
+    MovingFit fit = MovingFitter(frames, by_contours).fit(contours, times, work);
     Stopwatch watch(fit.seconds);
-    std::vector<Mask> masks = masks_at(times, fit, work);
-    watch.lap("voxelize");
+    const MaskCourse course = fit.mask_course(work);
+    std::vector<Mask> masks = masks_at(times, course, work);
     std::vector<double> volumes;
     for (const Mask& mask : masks) volumes.push_back(volume_ml(mask));
-    return {{times.begin(), times.end()},     std::move(masks),        std::move(fit.function), std::move(fit.moments),
-            volume_curve(std::move(volumes)), std::move(fit.warnings), std::move(fit.seconds)};
+    std::vector<VolumeInterval> intervals = volume_intervals(course, sureness_of(fit.moments), times, volumes);
+    VolumeCurve curve = volume_curve(std::move(volumes), std::move(intervals));
+    if (std::string note = note_of_ties(curve); !note.empty()) fit.warnings.push_back(std::move(note));
+    watch.lap("voxelize");
+    std::vector<TriangleMesh> meshes;
+    if (options.mesh) meshes = meshes_at(times, fit.mesh_course(work), work);
+    if (options.mesh) watch.lap("polygonize");
+    return {{times.begin(), times.end()}, std::move(masks), std::move(meshes),       std::move(fit.function),
+            std::move(fit.moments),       std::move(curve), std::move(fit.warnings), std::move(fit.seconds)};
 }
 
 }  // namespace kontur

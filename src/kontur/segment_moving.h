@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,28 +12,12 @@
 
 #include "kontur/base/work.h"
 #include "kontur/moving/mask_course.h"
+#include "kontur/moving/mesh_course.h"
 #include "kontur/moving/moving_function.h"
 #include "kontur/segment.h"
+#include "kontur/volume_curve.h"
 
 namespace kontur {
-
-/// A moment at which something was drawn.
-struct DrawnMoment {
-    double time = 0;           ///< frame, from 1, or seconds
-    std::size_t contours = 0;  ///< drawn at it
-    std::size_t carried = 0;   ///< sections in planes that were drawn at other moments alone
-    ContourSet set{};          ///< what it was fitted to: what was drawn, and then these sections
-    Segmentation segmentation;
-};
-
-/// A volume over time.
-struct VolumeCurve {
-    std::vector<double> volumes_ml;  ///< of the masks
-    std::size_t largest = 0, smallest = 0;
-    double stroke_ml() const { return volumes_ml[largest] - volumes_ml[smallest]; }
-    /// Of the largest volume, from 0 to 1; of a heart's ventricle. 0 where all masks are empty.
-    double ejection_fraction() const { return volumes_ml[largest] > 0 ? stroke_ml() / volumes_ml[largest] : 0; }
-};
 
 /// The function of space and time that contours of several moments make.
 struct MovingFit {
@@ -42,38 +28,46 @@ struct MovingFit {
 
     /// Masks at all times, on the grid of the fit.
     MaskCourse mask_course(const Work& work = {}) const;
+    /// Surfaces at all times, as fine as files have them.
+    MeshCourse mesh_course(const Work& work = {}) const;
     /// Points of each moment's contours, mm: where a MeshCourse starts.
     std::vector<std::vector<Vec3>> starts() const;
+};
+
+/// The image that an object moves in.
+struct FramesToSegment {
+    /// The voxels at a time; null at a time between its frames.
+    using ImageAt = std::function<std::shared_ptr<const Image>(double)>;
+
+    FramesToSegment(Grid its_grid, ImageAt its_images = {}) : grid(std::move(its_grid)), image_at(std::move(its_images)) {}
+
+    Grid grid;
+    ImageAt image_at;  ///< may be empty: the voxels are not looked at
 };
 
 /// Fits objects that move, on one grid. A moment whose contours are those of the fit before is not fitted again.
 class MovingFitter {
 public:
-    explicit MovingFitter(Grid grid, SegmentOptions options = {}) : grid_(std::move(grid)), options_(std::move(options)) {}
+    explicit MovingFitter(FramesToSegment frames, SegmentOptions options = {})
+        : frames_(std::move(frames)), options_(std::move(options)) {}
 
     /// Throws as segment_moving does; then what was fitted before is kept.
     MovingFit fit(const ContourSet& contours, std::span<const double> times, const Work& work = {});
 
 private:
-    DrawnMoment fitted(ContourSet set, const Work& work) const;
+    /// `follows_image`: as far as that helps.
+    DrawnMoment fitted(ContourSet set, double time, bool follows_image, const Work& work) const;
 
-    Grid grid_;
+    FramesToSegment frames_;
     SegmentOptions options_;
     std::vector<DrawnMoment> known_;  ///< of the fit before
 };
 
-/// The volumes, and which of them are the extremes.
-VolumeCurve volume_curve(std::vector<double> volumes_ml);
-
-/// A table of the volumes as CSV: frame (from 1), time_s, volume_ml, contours drawn there, phase. `step_s` is from one time
-/// to the next.
-std::string volumes_csv(const std::vector<double>& times, const VolumeCurve& curve, const std::vector<DrawnMoment>& moments,
-                        const std::optional<double>& step_s);
-
 /// Masks of a moving object, and the function of space and time that they were made from.
 struct MovingSegmentation {
     std::vector<double> times;
-    std::vector<Mask> masks;  ///< at each of the times
+    std::vector<Mask> masks;           ///< at each of the times
+    std::vector<TriangleMesh> meshes;  ///< at each of the times, with SegmentOptions::mesh
     MovingFunction function;
     std::vector<DrawnMoment> moments;
     VolumeCurve volumes;
@@ -85,10 +79,11 @@ struct MovingSegmentation {
 /// which something was drawn is segmented by itself, as `segment` does; where little was drawn at it, sections of a process
 /// in space and time stand for contours in planes that were drawn at other moments (carried_sections). Between moments
 /// values of f run as TimeCourse says. The motion repeats where the contours say so (cycle_frames, cycle_s). Contours of a
-/// single moment, or of none, give `segment`'s mask at all times. The image's voxels are not looked at, and no mesh is made.
+/// single moment, or of none, give `segment`'s mask at all times. Where a whole moment is one of the image's frames, its
+/// function follows that, as `segment`'s does.
 /// Contours in any order and times in any unit give the same masks; the same bytes for any number of threads. Throws as
 /// `segment` and moments_of do, and Error(invalid_input) without times, or for a contour before or after all of them.
-MovingSegmentation segment_moving(const ContourSet& contours, const Grid& grid, std::span<const double> times,
+MovingSegmentation segment_moving(const ContourSet& contours, const FramesToSegment& frames, std::span<const double> times,
                                   const SegmentOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

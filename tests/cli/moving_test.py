@@ -3,10 +3,12 @@
 import csv
 import json
 import pathlib
+import subprocess
 import sys
 
 import nibabel
 import numpy
+import pydicom
 import pytest
 from support import circle, kontur, names, succeed
 
@@ -81,12 +83,93 @@ def test_masks_of_all_frames_and_their_volumes(tmp_path, cine, contours):
     assert [row["frame"] for row in rows] == [str(n + 1) for n in range(FRAMES)]
     assert [row["contours"] for row in rows] == ["4", "0", "0", "0", "4", "0", "0", "0"]
     assert [row["phase"] for row in rows] == ["largest", "", "", "", "smallest", "", "", ""]
+    for row in rows:
+        ml = 4 / 3e3 * numpy.pi * radius(int(row["frame"])) ** 3
+        assert float(row["low_ml"]) < ml < float(row["high_ml"]) < 1.5 * ml
     assert float(rows[2]["time_s"]) == pytest.approx(0.08)
     truth = 1 - (radius(5) / radius(1)) ** 3
     report = json.loads((tmp_path / "r.json").read_text())
     assert report["ejection_fraction"] == pytest.approx(truth, abs=0.04)
     assert (report["largest_frame"], report["smallest_frame"]) == (1, 5)
+    assert report["ejection_fraction_low"] < truth < report["ejection_fraction_high"]
+    assert [float(row["high_ml"]) for row in rows] == pytest.approx(report["volumes_high_ml"], abs=1e-3)
     assert "ejection fraction" in said and "largest in frame 1" in said
+    assert f"({100 * report['ejection_fraction_low']:.1f} to {100 * report['ejection_fraction_high']:.1f})" in said
+
+
+def stl_volume_ml(path):
+    """Of a binary STL, by its triangles alone."""
+    corners = numpy.frombuffer(path.read_bytes()[84:], "<f4,(3,3)<f4,<u2")["f1"].astype(float)
+    return numpy.einsum("ij,ij->i", corners[:, 0], numpy.cross(corners[:, 1], corners[:, 2])).sum() / 6e3
+
+
+def test_each_frame_has_a_surface_in_a_file_of_its_own(tmp_path, cine, contours):
+    (tmp_path / "meshes").mkdir()
+    said = succeed("segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz", "--mesh", tmp_path / "meshes" / "ball.stl",
+                   "--volumes", tmp_path / "v.csv")
+    assert names(tmp_path / "meshes") == [f"ball_frame_{n}.stl" for n in range(1, FRAMES + 1)]
+    assert "ball_frame_1.stl: 8 surfaces" in said
+    for row in csv.DictReader((tmp_path / "v.csv").open()):
+        volume = stl_volume_ml(tmp_path / "meshes" / f"ball_frame_{row['frame']}.stl")
+        assert volume == pytest.approx(float(row["volume_ml"]), rel=0.03)
+        assert volume == pytest.approx(4 / 3e3 * numpy.pi * radius(int(row["frame"])) ** 3, rel=0.12)
+
+
+def png_chunks(path):
+    data, at, found = path.read_bytes(), 8, []
+    while at < len(data):
+        size = int.from_bytes(data[at:at + 4], "big")
+        found.append((data[at + 4:at + 8].decode(), data[at + 8:at + 8 + size]))
+        at += size + 12
+    return found
+
+
+def test_a_picture_shows_the_curve_and_an_apng_moves(tmp_path, cine, contours):
+    word = ["segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz", "--picture"]
+    succeed(*word, tmp_path / "still.png")
+    kinds = [kind for kind, _ in png_chunks(tmp_path / "still.png")]
+    assert "acTL" not in kinds and kinds[0] == "IHDR" and kinds[-1] == "IEND"
+    said = succeed(*word, tmp_path / "moving.apng")
+    assert "moving.apng" in said
+    chunks = png_chunks(tmp_path / "moving.apng")
+    [control] = [content for kind, content in chunks if kind == "acTL"]
+    assert int.from_bytes(control[:4], "big") == FRAMES
+    frames = [content for kind, content in chunks if kind == "fcTL"]
+    assert len(frames) == FRAMES
+    assert [int.from_bytes(frame[20:22], "big") for frame in frames] == [40] * FRAMES  # ms
+    numbers = [int.from_bytes(content[:4], "big") for kind, content in chunks if kind in ("fcTL", "fdAT")]
+    assert numbers == list(range(len(numbers)))
+    still = write(tmp_path / "still.json", ball(1))
+    assert "moving.apng would move, and contours are of one moment" in refusal(
+        still, "--image", cine, "--frame", 1, "--output", tmp_path / "m.nii.gz", "--picture", tmp_path / "moving.apng")
+
+
+def test_a_dicom_cine_gets_a_segmentation_with_time_as_a_dimension(tmp_path, beats, contours):
+    succeed("segment", contours, "--image", beats, "--output", tmp_path / "masks.nii.gz")
+    succeed("segment", contours, "--image", beats, "--output", tmp_path / "masks.dcm", "--name", "Ventricle")
+    assert "Error" not in subprocess.run(["dciodvfy", tmp_path / "masks.dcm"], capture_output=True, text=True).stderr
+    seg = pydicom.dcmread(tmp_path / "masks.dcm")
+    assert [segment.SegmentLabel for segment in seg.SegmentSequence] == ["Ventricle"]
+    assert [d.DimensionDescriptionLabel for d in seg.DimensionIndexSequence] == ["segment", "time", "position"]
+    assert seg.DimensionIndexSequence[1].DimensionIndexPointer == pydicom.tag.Tag("TemporalPositionIndex")
+    sources = {}
+    for file in beats.iterdir():
+        slice_ = pydicom.dcmread(file, stop_before_pixels=True)
+        sources[slice_.SOPInstanceUID] = slice_
+    assert len(seg.ReferencedSeriesSequence[0].ReferencedInstanceSequence) == len(sources)
+    masks = numpy.asarray(nibabel.load(tmp_path / "masks.nii.gz").dataobj)
+    seen = numpy.zeros_like(masks)
+    for frame, pixels in zip(seg.PerFrameFunctionalGroupsSequence, seg.pixel_array):
+        source = sources[frame.DerivationImageSequence[0].SourceImageSequence[0].ReferencedSOPInstanceUID]
+        content = frame.FrameContentSequence[0]
+        time, k = content.DimensionIndexValues[1] - 1, content.DimensionIndexValues[2] - 1
+        assert content.TemporalPositionIndex == time + 1
+        assert abs(float(source.TriggerTime) - 15 - 40 * time) <= 1
+        assert frame.PlanePositionSequence[0].ImagePositionPatient == source.ImagePositionPatient
+        seen[:, :, k, time] = pixels.T
+    assert numpy.array_equal(seen, masks) and masks.any((0, 1, 2)).all()
+    result = kontur("convert", tmp_path / "masks.dcm", tmp_path / "one.nii.gz")
+    assert result.returncode == 69 and "the segmentation has 8 moments, and one is read" in result.stderr
 
 
 def test_bytes_do_not_depend_on_threads(tmp_path, cine, contours):
@@ -162,7 +245,12 @@ def test_what_cannot_be_is_refused_in_one_sentence_and_leaves_nothing(tmp_path, 
     assert "contour 5 has no frame, and contour 1 has one" in refusal(mixed, *image)
     assert "give a 4D --image" in refusal(contours, "--spacing-mm", 2, *output)
     assert "--frame 2 chooses one frame" in refusal(contours, *image, "--frame", 2)
-    assert "--mesh is of one moment" in refusal(contours, *image, "--mesh", tmp_path / "m.stl")
+    assert "--rtstruct is of one moment" in refusal(contours, *image, "--rtstruct", tmp_path / "m.dcm")
+    (tmp_path / "m_frame_3.stl").mkdir()
+    result = kontur("segment", contours, *image, "--mesh", tmp_path / "m.stl")
+    assert result.returncode == 74 and "m_frame_3.stl" in result.stderr
+    (tmp_path / "m_frame_3.stl").rmdir()
+    assert "is no DICOM series" in refusal(contours, "--image", cine, "--output", tmp_path / "masks.dcm")
     assert "a cycle of 4 goes from 1 to before 5" in refusal(contours, *image, "--cycle", 4)
     still = write(tmp_path / "still.json", ball(1))
     assert "--cycle is for contours that were drawn at several moments" in refusal(still, *image, "--frame", 1, "--cycle", 8)

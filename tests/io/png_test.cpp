@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <random>
 
@@ -38,6 +39,35 @@ TEST(WritePng, IndependentDecoderFindsSizeAndEveryPixel) {
         EXPECT_TRUE(std::equal(raw.begin(), raw.end(), image.bytes.begin(), image.bytes.end(),
                                [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }));
     }
+}
+
+TEST(WriteAnimatedPng, IndependentDecoderFindsEveryPixelOfEachPicture) {
+    const test::TemporaryFolder folder;
+    std::vector<RgbImage> pictures{noise(31, 17), noise(31, 17), noise(31, 17), noise(31, 17)};
+    for (const int x : {4, 9}) pictures[1].bytes[3 * (5 * 31 + x) + 1] ^= 0xFF;
+    pictures[2] = pictures[1];  // nothing changes
+    std::reverse(pictures[3].bytes.begin(), pictures[3].bytes.end());
+    write_animated_png(folder / "moving.png", pictures, 0.0414, {{"made_by", "hand"}});
+    const auto python = test::run_python("decode_png.py", {folder / "moving.png", folder / "moving.raw"});
+    ASSERT_EQ(python.exit_code, 0) << python.output;
+    EXPECT_EQ(python.output, "31 17 41 41 41 41\n");
+    std::string all;
+    for (const RgbImage& picture : pictures) all.append(picture.bytes.begin(), picture.bytes.end());
+    EXPECT_EQ(bytes_of(folder / "moving.raw"), all);
+    EXPECT_LT(std::filesystem::file_size(folder / "moving.png"), 2.5 * 3 * 31 * 17) << "only what changes is written";
+}
+
+TEST(WriteAnimatedPng, RefusesWhatCannotMove) {
+    const test::TemporaryFolder folder;
+    const auto write = [&](const std::vector<RgbImage>& pictures, double seconds) {
+        write_animated_png(folder / "moving.png", pictures, seconds);
+    };
+    EXPECT_KONTUR_ERROR(write({}, 1), ErrorKind::invalid_input, "there is no picture");
+    EXPECT_KONTUR_ERROR(write({noise(4, 4), noise(4, 5)}, 1), ErrorKind::invalid_input,
+                        "a picture of 4 x 5 pixels after one of 4 x 4");
+    EXPECT_KONTUR_ERROR(write({noise(4, 4)}, 0), ErrorKind::invalid_input, "each picture is seen for 0 s");
+    EXPECT_KONTUR_ERROR(write({noise(4, 4)}, NAN), ErrorKind::invalid_input, "each picture is seen for nan s");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(WritePng, SamePictureGivesTheSameBytes) {

@@ -77,7 +77,7 @@ TEST(Moments, WhereLittleWasDrawnPlanesOfOthersAreMissing) {
     const ContourSet other = slices_in_frames({5});
     set.contours.push_back(other.contours[2]);
     const DrawnMoments drawn = drawn_moments(set, moments_of(set));
-    EXPECT_EQ(drawn.is_whole, (std::vector<bool>{true, false}));
+    EXPECT_EQ(drawn.weights, (std::vector<double>{1, 0}));
     EXPECT_EQ(drawn.missing[0].size(), 0);
     EXPECT_EQ(drawn.missing[1].size(), 5);
     EXPECT_FALSE(drawn.sets[1].contours.front().frame.has_value());

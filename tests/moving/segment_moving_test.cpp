@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 
@@ -204,6 +206,77 @@ TEST(SegmentMoving, OneMoreContourWhereOthersForetoldItChangesLittle) {
     set.contours.push_back(section(slices()[3], 4));
     const MovingSegmentation more = made(set);
     for (int n = 0; n < kFrames; ++n) EXPECT_GT(dice(made_of_slices().masks[n], more.masks[n]), 0.97) << n;
+}
+
+/// Two whole frames, and in a third one so many contours.
+ContourSet with_some_in_frame_4(std::size_t count) {
+    constexpr std::array kOrder{2, 4, 0, 3, 5, 1};
+    ContourSet set = whole({1, 7});
+    for (std::size_t n = 0; n < count; ++n) set.contours.push_back(section(slices()[kOrder[n]], 4));
+    return set;
+}
+
+TEST(SegmentMoving, AMomentBecomesWholeContourByContourWithoutAStep) {
+    // The first contour tells most. None of the others does more than a few voxels' layer, that which makes it whole neither.
+    MovingSegmentation before = made(with_some_in_frame_4(1));
+    for (std::size_t count = 2; count <= 6; ++count) {
+        MovingSegmentation after = made(with_some_in_frame_4(count));
+        for (int n = 0; n < kFrames; ++n) EXPECT_GT(dice(before.masks[n], after.masks[n]), 0.97) << count << ": " << n;
+        before = std::move(after);
+    }
+}
+
+/// Bright inside, dark outside.
+std::shared_ptr<const Image> image_at(double frame) {
+    const Mask inside = truth(frame);
+    std::vector<std::int16_t> values;
+    for (const std::uint8_t v : inside.values) values.push_back(v ? 900 : 100);
+    return std::make_shared<const Image>(Image{inside.grid, values});
+}
+
+TEST(SegmentMoving, AWholeMomentFollowsTheImageOfItsFrameAsSegmentDoes) {
+    const ContourSet set = whole({1, 6});
+    std::vector<double> asked;
+    const auto source = [&](double frame) {
+        asked.push_back(frame);
+        return image_at(frame);
+    };
+    const MovingSegmentation moving = segment_moving(set, {grid(), source}, all_frames());
+    EXPECT_EQ(asked, (std::vector<double>{1, 6}));
+    ContourSet alone = whole({6});
+    for (Contour& contour : alone.contours) contour.frame.reset();
+    const auto image = image_at(6);
+    const Segmentation still = segment(alone, grid(), &*image);
+    EXPECT_NE(still.report.image.verdict, ImageVerdict::none);
+    EXPECT_EQ(moving.masks[5].values, still.mask.values);
+    asked.clear();
+    segment_moving(set, {grid(), source}, all_frames(), {.use_image = UseImage::off});
+    EXPECT_TRUE(asked.empty());
+}
+
+TEST(SegmentMoving, WithMeshEachFrameHasItsSurface) {
+    const MovingSegmentation moving = segment_moving(whole({1, 7}), grid(), all_frames(), {.mesh = true});
+    ASSERT_EQ(moving.meshes.size(), kFrames);
+    for (int n = 0; n < kFrames; ++n)
+        EXPECT_NEAR(signed_volume_mm3(moving.meshes[n]) / 1000, moving.volumes.volumes_ml[n],
+                    0.02 * moving.volumes.volumes_ml[n])
+            << n;
+    EXPECT_TRUE(made(whole({1, 7})).meshes.empty());
+}
+
+TEST(SegmentMoving, IntervalsHoldTheTruth) {
+    const MovingSegmentation moving = made(whole({1, 4, 7, 10}));
+    ASSERT_EQ(moving.volumes.intervals.size(), kFrames);
+    for (int n = 0; n < kFrames; ++n) {
+        const double truth_ml = 4.0 / 3 * std::numbers::pi * std::pow(radius_mm(n + 1), 3) / 1000;
+        EXPECT_LT(moving.volumes.intervals[n].low_ml, truth_ml) << n;
+        EXPECT_GT(moving.volumes.intervals[n].high_ml, truth_ml) << n;
+    }
+    const auto interval = moving.volumes.ejection_interval();
+    ASSERT_TRUE(interval.has_value());
+    EXPECT_LT(interval->low, 1 - std::pow(23.0 / 31, 3));
+    EXPECT_GT(interval->high, 1 - std::pow(23.0 / 31, 3));
+    EXPECT_LT(interval->high - interval->low, 0.3);
 }
 
 TEST(SegmentMoving, ItMakesTheSameBytesForAnyNumberOfThreads) {

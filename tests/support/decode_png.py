@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""decode_png.py PICTURE.png RAW: checks an 8-bit RGB PNG by the specification alone, writes its pixels, prints its size."""
+"""decode_png.py PICTURE.png RAW: checks an 8-bit RGB PNG by the specification alone, writes its pixels, prints its size.
+
+Of one that moves (APNG) the pixels of all pictures, and behind the size how long each is seen, in ms.
+"""
 
 import struct
 import sys
@@ -39,7 +42,43 @@ parts = list(chunks(open(sys.argv[1], "rb").read()))
 assert parts[0][0] == b"IHDR" and parts[-1] == (b"IEND", b"")
 width, height, depth, colour, *methods = struct.unpack(">IIBBBBB", parts[0][1])
 assert (depth, colour, methods) == (8, 2, [0, 0, 0])
-data = zlib.decompress(b"".join(body for kind, body in parts if kind == b"IDAT"))
-assert len(data) == height * (3 * width + 1)
-open(sys.argv[2], "wb").write(unfilter(data, width, height))
-print(width, height)
+
+
+def pictures(parts):
+    """(size and place, ms, compressed pixels) of each picture of an animation; the first is that which others show."""
+    found, number = [], 0
+    for kind, body in parts:
+        if kind in (b"fcTL", b"fdAT"):
+            assert int.from_bytes(body[:4], "big") == number
+            number += 1
+        if kind == b"fcTL":
+            *place, ms, unit, dispose, blend = struct.unpack(">IIIIHHBB", body[4:])
+            assert (unit, dispose, blend) == (1000, 0, 0)
+            found.append([place, ms, b""])
+        if kind == b"IDAT" or kind == b"fdAT":
+            found[-1][2] += body if kind == b"IDAT" else body[4:]
+    assert [body for kind, body in parts if kind == b"acTL"] == [struct.pack(">II", len(found), 0)]
+    assert found[0][0] == [width, height, 0, 0]
+    return found
+
+
+def decoded(data, width, height):
+    data = zlib.decompress(data)
+    assert len(data) == height * (3 * width + 1)
+    return unfilter(data, width, height)
+
+
+output = open(sys.argv[2], "wb")
+if b"acTL" not in dict(parts):
+    output.write(decoded(b"".join(body for kind, body in parts if kind == b"IDAT"), width, height))
+    print(width, height)
+else:
+    shown, times = bytearray(3 * width * height), []
+    for (w, h, left, top), ms, data in pictures(parts):
+        region = decoded(data, w, h)
+        for y in range(h):
+            at = 3 * ((top + y) * width + left)
+            shown[at : at + 3 * w] = region[3 * w * y : 3 * w * (y + 1)]
+        output.write(shown)
+        times.append(ms)
+    print(width, height, *times)

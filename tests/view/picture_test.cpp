@@ -99,8 +99,8 @@ TEST(SlicePanel, SurfaceContourAndCrossingHaveTheirColoursAtTheirPlaces) {
 TEST(SurfacePanel, HiddenHalfOfAContourIsFaint) {
     const TriangleMesh mesh = ball({}, 20, 5);
     Canvas canvas(300, 300), empty(300, 300);
-    picture::draw_surface_panel(canvas, {{0, 0, 300, 300}, 1}, mesh, three_circles({}, 20), {.threads = 1});
-    picture::draw_surface_panel(empty, {{0, 0, 300, 300}, 1}, {}, three_circles({}, 20), {.threads = 1});
+    picture::draw_surface_panel(canvas, {{0, 0, 300, 300}, 1}, {mesh, three_circles({}, 20)}, {.threads = 1});
+    picture::draw_surface_panel(empty, {{0, 0, 300, 300}, 1}, {{}, three_circles({}, 20)}, {.threads = 1});
     const int with_surface = count_color(canvas.image(), picture::kDrawn), all = count_color(empty.image(), picture::kDrawn);
     EXPECT_GT(with_surface, 0.4 * all);
     EXPECT_LT(with_surface, 0.75 * all);

@@ -108,7 +108,9 @@ std::shared_ptr<const FittedMotion> ExportFits::motion(const State& state, Id st
         const std::scoped_lock lock(mutex_);
         if (motion_ && is_same(motion_of_, own)) return motion_;
     }
-    auto made = std::make_shared<const FittedMotion>(own, structure, image_->grid, times_, work);
+    FramesToSegment frames(image_->grid);
+    if (own.use_image) frames.image_at = [this](double frame) { return image_at_(static_cast<int>(frame) - 1); };
+    auto made = std::make_shared<const FittedMotion>(own, structure, frames, times_, work);
     const std::scoped_lock lock(mutex_);
     motion_of_ = own;
     motion_ = made;

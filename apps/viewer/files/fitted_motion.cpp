@@ -9,21 +9,15 @@
 #include "kontur/base/error.h"
 
 namespace kontur::viewer {
-namespace {
-
-constexpr double kSpacingFraction = 0.01;  // of the contours' diameter
-
-}  // namespace
-
-FittedMotion::FittedMotion(const State& state, Id structure, const Grid& grid, int times, const Work& work)
+FittedMotion::FittedMotion(const State& state, Id structure, const FramesToSegment& frames, int times, const Work& work)
     : structure_(structure_of(state, structure)),
       set_(contour_set(state, structure)),
       frames_(static_cast<std::size_t>(times)) {
     std::iota(frames_.begin(), frames_.end(), 1);
     try {
-        MovingFit fit = MovingFitter(grid, {.smoothing = structure_.smoothing, .drawn_on = grid}).fit(set_, frames_, work);
+        MovingFit fit = MovingFitter(frames, {.smoothing = structure_.smoothing, .drawn_on = frames.grid}).fit(set_, frames_, work);
         masks_.emplace(fit.mask_course(work));
-        meshes_.emplace(fit.function, fit.starts(), kSpacingFraction * diameter_mm(set_), work);
+        meshes_.emplace(fit.mesh_course(work));
         moments_ = std::move(fit.moments);
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", structure_.name, error.what()));
@@ -50,7 +44,8 @@ std::vector<Mask> FittedMotion::masks() const {
 std::string FittedMotion::volumes_csv(const std::optional<double>& step_s) const {
     std::vector<double> volumes;
     for (const double frame : frames_) volumes.push_back(volume_ml(masks_->at(frame)));
-    return kontur::volumes_csv(frames_, volume_curve(std::move(volumes)), moments_, step_s);
+    std::vector<VolumeInterval> intervals = volume_intervals(*masks_, sureness_of(moments_), frames_, volumes);
+    return kontur::volumes_csv(frames_, volume_curve(std::move(volumes), std::move(intervals)), moments_, step_s);
 }
 
 Provenance FittedMotion::provenance() const {

@@ -18,7 +18,7 @@ namespace kontur::viewer {
 class FittedMotion {
 public:
     /// Throws what `segment_moving` throws, with the structure's name.
-    FittedMotion(const State& state, Id structure, const Grid& grid, int times, const Work& work);
+    FittedMotion(const State& state, Id structure, const FramesToSegment& frames, int times, const Work& work);
 
     /// At one time, from 0, with its surface; it shares no border.
     FittedStructure at(int time) const;

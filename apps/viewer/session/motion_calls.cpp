@@ -48,6 +48,9 @@ json motion_json(const Motion& motion) {
                      {"smallest", curve.smallest},
                      {"stroke_ml", curve.stroke_ml()},
                      {"ejection_fraction", curve.ejection_fraction()}};
+    for (const VolumeInterval& one : curve.intervals) told["curve"]["intervals_ml"].push_back({one.low_ml, one.high_ml});
+    if (const auto interval = curve.ejection_interval())
+        told["curve"]["ejection_interval"] = {interval->low, interval->high};
     return told;
 }
 

@@ -7,6 +7,7 @@
 #include "kontur/moving/carried_sections.h"
 #include "kontur/view/outline.h"
 #include "viewer/edits/sketch.h"
+#include "viewer/session/events.h"
 
 namespace kontur::viewer {
 namespace {
@@ -22,7 +23,7 @@ std::vector<Plane> missing_planes(const ContourSet& moving, int time) {
         const auto& moments = drawn.moments.course.times();
         const auto at = std::ranges::find(moments, static_cast<double>(time + 1));
         const auto k = static_cast<std::size_t>(at - moments.begin());
-        return at == moments.end() || drawn.is_whole[k] ? std::vector<Plane>{} : drawn.missing[k];
+        return at == moments.end() || drawn.weights[k] == 1 ? std::vector<Plane>{} : drawn.missing[k];
     } catch (const Error&) {
         return {};  // the motion says why there is none
     }
@@ -56,7 +57,10 @@ void turn_into_motion(SurfaceTask& task, const std::vector<int>& times, SessionS
     ContourSet all = task.set;
     set_frames(all, times, s.project.state());
     task.time = time_at_hand(times, s.surfaces.motions().looked_at());
-    task.motion = MotionTask{task.structure, std::move(all), s.image.times.count(), s.image.voxels->grid, task.smoothing};
+    FramesToSegment frames(s.image.voxels->grid);
+    if (image_for_fits(s))
+        frames.image_at = [&volumes = s.image.times](double frame) { return volumes.image(static_cast<int>(frame) - 1); };
+    task.motion = MotionTask{task.structure, std::move(all), s.image.times.count(), std::move(frames), task.smoothing};
     const std::vector<Contour> contours = std::exchange(task.set.contours, {});
     const std::vector<Id> ids = std::exchange(task.ids, {});
     for (std::size_t n = 0; n < contours.size(); ++n) {

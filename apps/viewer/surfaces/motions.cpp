@@ -217,35 +217,38 @@ bool Motions::show(Id structure, const StopToken& stop, const std::function<void
 }
 
 void Motions::fit(Id structure, const StopToken& stop) {
-    MotionTask task;
+    std::optional<MotionTask> task;
     std::shared_ptr<MovingFitter> fitter;
     {
         const std::scoped_lock lock(mutex_);
         const auto found = made_.find(structure);
         if (found == made_.end() || !found->second.waiting) return;
         Made& made = found->second;
-        task = *std::exchange(made.waiting, std::nullopt);
-        if (!made.fitter || made.smoothing != task.smoothing) {
-            made.fitter = std::make_shared<MovingFitter>(task.grid,
-                                                         SegmentOptions{.smoothing = task.smoothing, .drawn_on = task.grid});
-            made.smoothing = task.smoothing;
+        task = std::exchange(made.waiting, std::nullopt);
+        const bool uses_image = static_cast<bool>(task->frames.image_at);
+        if (!made.fitter || made.smoothing != task->smoothing || made.uses_image != uses_image) {
+            made.fitter = std::make_shared<MovingFitter>(
+                task->frames, SegmentOptions{.smoothing = task->smoothing, .drawn_on = task->frames.grid});
+            made.smoothing = task->smoothing;
+            made.uses_image = uses_image;
         }
         fitter = made.fitter;
         if (!made.shown || made.shown->frames.empty()) {
             Motion motion;
             motion.structure = structure;
-            motion.frames.resize(static_cast<std::size_t>(task.times));
+            motion.frames.resize(static_cast<std::size_t>(task->times));
             made.shown = std::make_shared<const Motion>(std::move(motion));
         }
     }
     const Work work{.stop = stop};
-    const MovingFit fitted = fitter->fit(task.set, all_frames(task.times), work);
+    const MovingFit fitted = fitter->fit(task->set, all_frames(task->times), work);
     const auto meshes =
-        std::make_shared<const MeshCourse>(fitted.function, fitted.starts(), kSpacingFraction * diameter_mm(task.set), work);
+        std::make_shared<const MeshCourse>(fitted.function, fitted.starts(), kSpacingFraction * diameter_mm(task->set), work);
     const auto mask_course = std::make_shared<const MaskCourse>(fitted.mask_course(work));
     show(structure, stop, [&](Made& made, Motion& motion) {
         made.meshes = meshes;
         made.masks = mask_course;
+        made.sureness = sureness_of(fitted.moments);
         for (MotionFrame& frame : motion.frames) frame.is_current = false;
         motion.sections = sections_of(fitted.moments);
         motion.warnings = fitted.warnings;
@@ -274,22 +277,25 @@ void Motions::add_mesh(const Step& step, const StopToken& stop) {
 
 void Motions::add_volumes(Id structure, const StopToken& stop) {
     std::shared_ptr<const MaskCourse> masks;
-    std::size_t times = 0;
+    std::vector<MomentSureness> sureness;
+    int times = 0;
     {
         const std::scoped_lock lock(mutex_);
         const auto found = made_.find(structure);
         if (found == made_.end() || !found->second.masks) return;
         masks = found->second.masks;
-        times = found->second.shown->frames.size();
+        sureness = found->second.sureness;
+        times = static_cast<int>(found->second.shown->frames.size());
     }
     std::vector<double> volumes;
-    for (std::size_t time = 0; time < times; ++time) {
+    for (int time = 0; time < times; ++time) {
         if (stop.stop_requested()) return;
-        volumes.push_back(volume_ml(masks->at(frame_number(static_cast<int>(time)))));
+        volumes.push_back(volume_ml(masks->at(frame_number(time))));
     }
+    std::vector<VolumeInterval> intervals = volume_intervals(*masks, sureness, all_frames(times), volumes);
     show(structure, stop, [&](Made& made, Motion& motion) {
         made.masks = nullptr;
-        motion.volumes = volume_curve(std::move(volumes));
+        motion.volumes = volume_curve(std::move(volumes), std::move(intervals));
         motion.is_finished = !missing_time(motion);
     });
 }

@@ -42,7 +42,7 @@ struct MotionTask {
     Id structure = 0;
     ContourSet set;  ///< with their frames
     int times = 1;   ///< that the image has
-    Grid grid;
+    FramesToSegment frames;
     std::optional<double> smoothing{};
 };
 
@@ -82,8 +82,10 @@ private:
         std::shared_ptr<const Motion> shown;
         std::shared_ptr<const MeshCourse> meshes;  ///< of the contours of now; null: nothing more can be made
         std::shared_ptr<const MaskCourse> masks;   ///< until the volumes are known
+        std::vector<MomentSureness> sureness;      ///< of the moments of these masks
         std::shared_ptr<MovingFitter> fitter;
-        std::optional<double> smoothing;  ///< of the fitter
+        std::optional<double> smoothing;  ///< of the fitter,
+        bool uses_image = false;          ///< likewise
         std::optional<MotionTask> waiting;
     };
     /// What is to be done next for a structure.

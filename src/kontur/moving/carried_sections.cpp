@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <optional>
 
 #include "kontur/base/parallel.h"
@@ -20,7 +22,7 @@ namespace {
 // slices, of 5 bodies (bench/moving.py), where these make .9679, .9692, .9826.
 constexpr std::array kSpeeds{0.5, 0.75, 1.1, 1.7, 2.5};  // radii along time for a cycle, of which one is chosen
 constexpr std::size_t kUsualSpeed = 3;                   // of these, where few contours could tell. 1 .9622, 2 .9653
-constexpr std::size_t kLeastLeftOut = 6;                 // contours that can tell. 3 .9618; 12 the same
+constexpr double kLeastLeftOut = 6;                      // contours that can tell. 3 .9618; 12 the same
 constexpr std::size_t kMostPoints = 450;                 // 225 .9626, .9692, .9817; 900 .9660, .9690, .9822
 constexpr std::size_t kMostPointsToChoose = 225;         // 110 and 450 the same
 constexpr double kStep = 1.0 / 15;  // of the radius, between nodes of a section's lattice. 1/30 .0002 more, 2/15 .0008 less
@@ -72,15 +74,14 @@ std::vector<PointInTime> points_in_time(const DrawnMoments& drawn, FillRule fill
 /// The one with which a process foretells best the contours of moments that are not whole, each left out in turn.
 double chosen_speed_mm(const std::vector<PointInTime>& points, const DrawnMoments& drawn, SpaceTimeOptions options,
                        const Work& work) {
-    std::vector<bool> counts;
+    std::vector<double> counts;
     for (std::size_t k = 0; k < drawn.sets.size(); ++k)
         for (const std::size_t n : drawn.moments.contours[k]) {
             counts.resize(std::max(counts.size(), n + 1));
-            counts[n] = !drawn.is_whole[k];
+            counts[n] = 1 - drawn.weights[k];
         }
     const double radius = options.ball.radius;
-    if (static_cast<std::size_t>(std::count(counts.begin(), counts.end(), true)) < kLeastLeftOut)
-        return kSpeeds[kUsualSpeed] * radius;
+    if (std::accumulate(counts.begin(), counts.end(), 0.0) < kLeastLeftOut) return kSpeeds[kUsualSpeed] * radius;
     const std::vector<PointInTime> some = thinned(points, kMostPointsToChoose);
     std::array<double, kSpeeds.size()> errors{};
     parallel_for(kSpeeds.size(), 1, work, [&](std::int64_t begin, std::int64_t end) {
@@ -93,9 +94,9 @@ double chosen_speed_mm(const std::vector<PointInTime>& points, const DrawnMoment
     return kSpeeds[static_cast<std::size_t>(std::min_element(errors.begin(), errors.end()) - errors.begin())] * radius;
 }
 
-/// Where the function vanishes in a plane, near what was drawn in it at other moments.
-std::vector<Contour> section_of(const SpaceTimeFunction& function, const Plane& plane, double time, const Box3& region,
-                                double radius_mm) {
+/// Where values vanish in a plane, near what was drawn in it at other moments.
+std::vector<Contour> section_of(const std::function<std::vector<double>(const std::vector<Vec3>&)>& values,
+                                const Plane& plane, const Box3& region, double radius_mm) {
     const double step = kStep * radius_mm;
     std::vector<Contour> contours;
     const std::optional<IsolineLattice> lattice = lattice_over(plane, corners(region.padded(2 * step)), step);
@@ -103,12 +104,25 @@ std::vector<Contour> section_of(const SpaceTimeFunction& function, const Plane& 
     std::vector<Vec3> nodes;
     for (std::int64_t j = 0; j < lattice->rows; ++j)
         for (std::int64_t i = 0; i < lattice->columns; ++i) nodes.push_back(plane.from_uv(lattice->uv(i, j)));
-    for (const Isoline& line : isolines(*lattice, function.values(nodes, time))) {
+    for (const Isoline& line : isolines(*lattice, values(nodes))) {
         if (line.area_mm2 < kLeastArea * radius_mm * radius_mm || line.points.size() < 3) continue;
         Contour& contour = contours.emplace_back(Contour{plane, {}, true, line.hole});
         for (const auto& uv : line.points) contour.points.push_back(plane.from_uv(uv));
     }
     return contours;
+}
+
+/// Those of the process, and by the moment's weight those of its own function.
+std::vector<double> values_at_moment(const SpaceTimeFunction& process, const WholeMotion& whole, const DrawnMoments& drawn,
+                                     std::size_t moment, const std::vector<Vec3>& nodes) {
+    std::vector<double> values = process.values(nodes, drawn.moments.course.times()[moment]);
+    const ImplicitFunction* own = whole.function_of(moment);
+    if (!own) return values;
+    std::vector<double> own_values(nodes.size());
+    own->values(nodes, own_values, {.threads = 1});
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        values[n] = std::lerp(values[n], own_values[n], drawn.weights[moment]);
+    return values;
 }
 
 }  // namespace
@@ -125,27 +139,31 @@ DrawnMoments drawn_moments(const ContourSet& set, const Moments& moments) {
             if (std::none_of(in[p].begin(), in[p].end(), is_drawn)) missing.push_back(planes[p]);
         }
         const auto count = static_cast<double>(planes.size());
-        drawn.is_whole.push_back(count - static_cast<double>(missing.size()) >= kWholeFraction * count);
+        const double share = 1 - static_cast<double>(missing.size()) / count;
+        drawn.weights.push_back(std::clamp((share - kLeastFraction) / (kWholeFraction - kLeastFraction), 0.0, 1.0));
     }
     return drawn;
 }
 
 std::vector<std::vector<Contour>> carried_sections(const ContourSet& set, const DrawnMoments& drawn,
-                                                   const MovingFunction* whole, FillRule fill_rule, const Work& work) {
+                                                   const WholeMotion& whole, FillRule fill_rule, const Work& work) {
     const Moments& moments = drawn.moments;
     std::vector<std::vector<Contour>> carried(drawn.sets.size());
-    if (std::find(drawn.is_whole.begin(), drawn.is_whole.end(), false) == drawn.is_whole.end()) return carried;
+    if (std::all_of(drawn.weights.begin(), drawn.weights.end(), [](double weight) { return weight == 1; })) return carried;
     work.report("carry sections", 0);
     const Ball3 ball = smallest_ball(set);
     const std::vector<PointInTime> points = points_in_time(drawn, fill_rule, work);
-    SpaceTimeOptions options{ball, time_as_length(moments, 0), whole};
+    SpaceTimeOptions options{ball, time_as_length(moments, 0), &whole};
     options.time.speed_mm = chosen_speed_mm(points, drawn, options, work);
     const SpaceTimeFunction function(thinned(points, kMostPoints), options, work);
     const std::vector<Plane> planes = DrawnLines(set).planes();
     const std::vector<std::vector<std::size_t>> in = contours_in(planes, set, moments);
     parallel_for(static_cast<std::int64_t>(carried.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-            if (drawn.is_whole[k]) continue;
+            if (drawn.weights[k] == 1) continue;
+            const auto values = [&](const std::vector<Vec3>& nodes) {
+                return values_at_moment(function, whole, drawn, k, nodes);
+            };
             for (std::size_t p = 0; p < planes.size(); ++p) {
                 if (std::find(drawn.missing[k].begin(), drawn.missing[k].end(), planes[p]) == drawn.missing[k].end())
                     continue;
@@ -153,8 +171,7 @@ std::vector<std::vector<Contour>> carried_sections(const ContourSet& set, const 
                 for (const std::size_t n : in[p])
                     for (const Vec3& point : set.contours[n].points) region.extend(point);
                 // An outline may be larger at this moment than at others.
-                const std::vector<Contour> section = section_of(function, planes[p], moments.course.times()[k],
-                                                                region.padded(0.25 * ball.radius), ball.radius);
+                const std::vector<Contour> section = section_of(values, planes[p], region.padded(0.25 * ball.radius), ball.radius);
                 carried[k].insert(carried[k].end(), section.begin(), section.end());
             }
         }

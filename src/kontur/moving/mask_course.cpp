@@ -53,6 +53,16 @@ Mask MaskCourse::at(double time) const {
     return mask;
 }
 
+double MaskCourse::differing_ml(std::size_t one, std::size_t other) const {
+    const auto differs = [&](std::size_t v) { return masks_[one].values[v] != masks_[other].values[v]; };
+    const auto voxels = std::count_if(voxels_.begin(), voxels_.end(), differs);
+    return static_cast<double>(voxels) * masks_.front().grid.voxel_volume_mm3() / 1000;
+}
+
+double MaskCourse::differing_ml() const {
+    return static_cast<double>(voxels_.size()) * masks_.front().grid.voxel_volume_mm3() / 1000;
+}
+
 double volume_ml(const Mask& mask) {
     const auto voxels = std::count_if(mask.values.begin(), mask.values.end(), [](auto v) { return v != 0; });
     return static_cast<double>(voxels) * mask.grid.voxel_volume_mm3() / 1000;

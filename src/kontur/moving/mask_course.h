@@ -19,6 +19,11 @@ public:
 
     Mask at(double time) const;
 
+    const TimeCourse& course() const { return course_; }
+    /// Of voxels that are inside at one of two moments alone, and at some moments alone.
+    double differing_ml(std::size_t one, std::size_t other) const;
+    double differing_ml() const;
+
 private:
     TimeCourse course_;
     std::vector<Mask> masks_;

@@ -94,7 +94,7 @@ double SpaceTimeFunction::sum_at(const Center& at) const {
 
 std::vector<double> SpaceTimeFunction::values(const std::vector<Vec3>& points, double time) const {
     std::vector<double> values(points.size(), -ball_.radius);
-    if (mean_) mean_->values(points, time, values, {.threads = 1});
+    if (mean_) mean_->lay_over(points, time, values, {.threads = 1});
     for (std::size_t n = 0; n < points.size(); ++n) values[n] += ball_.radius * sum_at(to_center(points[n], time));
     return values;
 }
@@ -154,15 +154,14 @@ double SpaceTimeFunction::square_of_left_out(const Block& block) const {
     return sum / static_cast<double>(block.on_line);
 }
 
-double SpaceTimeFunction::left_out_error_mm(const std::vector<bool>& counts) const {
-    double sum = 0;
-    int contours = 0;
+double SpaceTimeFunction::left_out_error_mm(const std::vector<double>& weights) const {
+    double sum = 0, all = 0;
     for (std::size_t c = 0; c < blocks_.size(); ++c) {
-        if (!counts[c] || blocks_[c].on_line == 0) continue;
-        sum += square_of_left_out(blocks_[c]);
-        ++contours;
+        if (weights[c] == 0 || blocks_[c].on_line == 0) continue;
+        sum += weights[c] * square_of_left_out(blocks_[c]);
+        all += weights[c];
     }
-    return contours > 0 ? std::sqrt(sum / contours) : 0;
+    return all > 0 ? std::sqrt(sum / all) : 0;
 }
 
 }  // namespace kontur

@@ -7,7 +7,7 @@
 
 #include "kontur/base/smallest_ball.h"
 #include "kontur/base/work.h"
-#include "kontur/moving/moving_function.h"
+#include "kontur/moving/whole_motion.h"
 
 namespace kontur {
 
@@ -36,7 +36,7 @@ std::vector<PointInTime> thinned(std::vector<PointInTime> points, std::size_t mo
 struct SpaceTimeOptions {
     Ball3 ball;  ///< of all that was drawn
     TimeAsLength time;
-    const MovingFunction* mean = nullptr;  ///< what f goes back to, away from the points; nullptr: a radius below 0
+    const WholeMotion* mean = nullptr;  ///< what f goes back to, away from the points; a radius below 0 where there is none
 };
 
 /// f(x, t) as a Gaussian process in space and time at once: the screened kernel of the distance in both (isotropic, no
@@ -49,9 +49,9 @@ public:
 
     std::vector<double> values(const std::vector<Vec3>& points, double time) const;
 
-    /// How far f would be from 0 along contours, if each was left out in turn: the root of the mean square, mm. Of those
-    /// alone that count; 0 where there are none. In closed form (Rasmussen & Williams 2006, 5.4.2).
-    double left_out_error_mm(const std::vector<bool>& counts) const;
+    /// How far f would be from 0 along contours, if each was left out in turn: the root of the mean square, mm. By their
+    /// weights; 0 where there are none. In closed form (Rasmussen & Williams 2006, 5.4.2).
+    double left_out_error_mm(const std::vector<double>& weights) const;
 
 private:
     struct Center {
@@ -71,7 +71,7 @@ private:
 
     Ball3 ball_;
     TimeAsLength time_;
-    std::optional<MovingFunction> mean_;
+    std::optional<WholeMotion> mean_;
     std::vector<Center> centers_;
     std::vector<double> weights_;
     std::vector<double> factor_;  ///< see small_cholesky

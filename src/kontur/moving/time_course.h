@@ -28,6 +28,14 @@ public:
         double since = 0;                   ///< the moment before, in the times' unit
     };
     Place place_of(double time) const;
+    /// How far it lies from the moment before to that after, 0 to 1.
+    double part_of(const Place& place) const { return place.before == place.after ? 0 : place.since / lengths_[place.before]; }
+
+    /// How long the interval around it is, of the cycle, or of twice as long as the moments span.
+    double share_of_cycle(const Place& place) const {
+        if (place.before == place.after) return 0;
+        return lengths_[place.before] / cycle_.value_or(2 * (times_.back() - times_.front()));
+    }
 
     /// The value at a place; `values` are those at the moments.
     double value(const Place& place, std::span<const double> values) const;

@@ -6,15 +6,11 @@
 #include "kontur/view/panels.h"
 
 namespace kontur::picture {
-namespace {
 
-/// The greatest of 1, 2 or 5 times a power of ten that is not above `limit`.
 double round_length(double limit) {
     const double power = std::pow(10, std::floor(std::log10(limit)));
     return (limit >= 5 * power ? 5 : limit >= 2 * power ? 2 : 1) * power;
 }
-
-}  // namespace
 
 void draw_scale_bar(Canvas& canvas, const PanelPlace& place, double pixel_mm) {
     const double length_mm = round_length(0.28 * place.rect.width * pixel_mm), length = length_mm / pixel_mm;

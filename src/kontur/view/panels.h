@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "kontur/base/work.h"
 #include "kontur/view/canvas.h"
+#include "kontur/view/moving_picture.h"
+#include "kontur/view/picture.h"
 #include "kontur/view/slices.h"
 #include "kontur/view/window.h"
 
@@ -34,6 +38,18 @@ std::string rounded(double value, int digits);
 /// PET, or an object in an image that is mostly empty, is beyond the 99th percentile of the whole.
 Window window_about(const Image& image, const Box3& box_mm);
 
+/// Throws as make_picture does.
+void check_picture_size(const PictureOptions& options);
+
+/// The greatest of 1, 2 or 5 times a power of ten that is not above `limit` (> 0).
+double round_length(double limit);
+
+/// Title and what is said beside it, and the footer of the whole picture.
+void draw_frame_texts(Canvas& canvas, const PanelPlace& picture, const std::string& title, const std::string& subtitle);
+
+/// Captions, and values at the right.
+void draw_facts(Canvas& canvas, const PanelPlace& place, Point2 at, const std::vector<PictureFact>& facts);
+
 /// A bar of a round length at the panel's lower left, with that length in mm.
 void draw_scale_bar(Canvas& canvas, const PanelPlace& place, double pixel_mm);
 
@@ -41,8 +57,12 @@ void draw_scale_bar(Canvas& canvas, const PanelPlace& place, double pixel_mm);
 void draw_edge_letters(Canvas& canvas, const PanelPlace& place, const Plane& screen);
 
 /// The shaded surface with the drawn contours on it.
-void draw_surface_panel(Canvas& canvas, const PanelPlace& place, const TriangleMesh& mesh, const ContourSet& contours,
-                        const Work& work);
+struct SurfaceContent {
+    const TriangleMesh& mesh;
+    const ContourSet& contours;
+    std::span<const Vec3> shown{};  ///< mm, what the view has room for; none: these
+};
+void draw_surface_panel(Canvas& canvas, const PanelPlace& place, const SurfaceContent& content, const Work& work);
 
 /// A slice of the image (may be null) with the contours and the surface's outline.
 struct SliceContent {
@@ -53,5 +73,8 @@ struct SliceContent {
     double pixel_mm;
 };
 void draw_slice_panel(Canvas& canvas, const PanelPlace& place, const Slice& slice, const SliceContent& content);
+
+/// The volume over frames, from 0 on, with its interval as a band and dots at frames with contours.
+void draw_curve_panel(Canvas& canvas, const PanelPlace& place, const PictureCurve& curve);
 
 }  // namespace kontur::picture

@@ -22,7 +22,6 @@ using picture::PanelPlace, picture::rounded, picture::window_about;
 /// below.
 struct Layout {
     double unit;
-    Point2 title, footer;
     Rect surface;
     std::array<Rect, 3> slices;
     Rect table;
@@ -40,8 +39,6 @@ Layout lay_out(int width, int height) {
         return Rect{right + column * (cell_width + gap), top + row * (cell_height + gap), cell_width, cell_height};
     };
     return {unit,
-            {margin, 44 * unit},
-            {margin, height - 13 * unit},
             {margin, top, left_width, 2 * cell_height + gap},
             {cell(0, 0), cell(0, 1), cell(1, 1)},
             cell(1, 0)};
@@ -102,7 +99,34 @@ void draw_legend(Canvas& canvas, const PanelPlace& place, Point2 at, bool has_su
     caption("contour of another plane crosses");
 }
 
-void draw_facts(Canvas& canvas, const PanelPlace& place, Point2 at, const std::vector<PictureFact>& facts) {
+void draw_table(Canvas& canvas, const PanelPlace& place, const std::vector<PictureFact>& facts, bool has_surface) {
+    const double u = place.unit;
+    const auto clip = canvas.clip(place.rect);
+    canvas.fill(place.rect, kPanel);
+    draw_legend(canvas, place, {place.rect.x + 18 * u, place.rect.y + 28 * u}, has_surface);
+    const double rule = place.rect.y + 104 * u;
+    const std::array<Point2, 2> ends{{{place.rect.x + 18 * u, rule}, {place.rect.right() - 18 * u, rule}}};
+    canvas.stroke(ends, false, kFrame, u);
+    picture::draw_facts(canvas, place, {place.rect.x + 18 * u, rule + 30 * u}, facts);
+    canvas.frame(place.rect, kFrame, u);
+}
+
+void check_window(const Window& window) {
+    check_finite("the window's centre", window.center);
+    check_above_0("the window's width", window.width);
+}
+
+}  // namespace
+
+void picture::check_picture_size(const PictureOptions& options) {
+    const std::string size = std::to_string(options.width_px) + " x " + std::to_string(options.height_px) + " pixels";
+    if (options.width_px < 320 || options.height_px < 200)
+        throw Error(ErrorKind::invalid_input, "a picture of " + size + "; at least 320 x 200 are needed");
+    if (options.width_px > 16384 || options.height_px > 16384)
+        throw Error(ErrorKind::too_large, "a picture of " + size + "; at most 16384 x 16384 are possible");
+}
+
+void picture::draw_facts(Canvas& canvas, const PanelPlace& place, Point2 at, const std::vector<PictureFact>& facts) {
     const double right = place.rect.right() - 18 * place.unit, line = 25 * place.unit;
     for (const PictureFact& fact : facts) {
         if (at.y > place.rect.bottom() - 10 * place.unit) return;
@@ -112,43 +136,18 @@ void draw_facts(Canvas& canvas, const PanelPlace& place, Point2 at, const std::v
     }
 }
 
-void draw_table(Canvas& canvas, const PanelPlace& place, const std::vector<PictureFact>& facts, bool has_surface) {
-    const double u = place.unit;
-    const auto clip = canvas.clip(place.rect);
-    canvas.fill(place.rect, kPanel);
-    draw_legend(canvas, place, {place.rect.x + 18 * u, place.rect.y + 28 * u}, has_surface);
-    const double rule = place.rect.y + 104 * u;
-    const std::array<Point2, 2> ends{{{place.rect.x + 18 * u, rule}, {place.rect.right() - 18 * u, rule}}};
-    canvas.stroke(ends, false, kFrame, u);
-    draw_facts(canvas, place, {place.rect.x + 18 * u, rule + 30 * u}, facts);
-    canvas.frame(place.rect, kFrame, u);
-}
-
-void draw_frame_texts(Canvas& canvas, const Layout& layout, const std::string& title, const std::string& subtitle) {
-    const double u = layout.unit;
-    const double width = canvas.text(layout.title, title, {.size_px = 29 * u, .color = kText, .bold = true});
-    canvas.text({layout.title.x + width + 18 * u, layout.title.y}, subtitle, {.size_px = 19 * u, .color = kMuted});
-    canvas.text(layout.footer, "kontur " KONTUR_VERSION " · research software, not a medical device",
+void picture::draw_frame_texts(Canvas& canvas, const PanelPlace& picture, const std::string& title,
+                               const std::string& subtitle) {
+    const double u = picture.unit, margin = std::round(16 * u);
+    const Point2 top{margin, 44 * u}, bottom{margin, picture.rect.height - 13 * u};
+    const double width = canvas.text(top, title, {.size_px = 29 * u, .color = kText, .bold = true});
+    canvas.text({top.x + width + 18 * u, top.y}, subtitle, {.size_px = 19 * u, .color = kMuted});
+    canvas.text(bottom, "kontur " KONTUR_VERSION " · research software, not a medical device",
                 {.size_px = 12.5 * u, .color = kMuted});
-    canvas.text({layout.table.right(), layout.footer.y},
+    canvas.text({picture.rect.width - margin, bottom.y},
                 "slices in radiological convention: the patient's right is on the left",
                 {.size_px = 12.5 * u, .color = kMuted, .align = Align::right});
 }
-
-void check_size(const PictureOptions& options) {
-    const std::string size = std::to_string(options.width_px) + " x " + std::to_string(options.height_px) + " pixels";
-    if (options.width_px < 320 || options.height_px < 200)
-        throw Error(ErrorKind::invalid_input, "a picture of " + size + "; at least 320 x 200 are needed");
-    if (options.width_px > 16384 || options.height_px > 16384)
-        throw Error(ErrorKind::too_large, "a picture of " + size + "; at most 16384 x 16384 are possible");
-}
-
-void check_window(const Window& window) {
-    check_finite("the window's centre", window.center);
-    check_above_0("the window's width", window.width);
-}
-
-}  // namespace
 
 Window picture::window_about(const Image& image, const Box3& box_mm) {
     const Window of_all = suggest_window(image);
@@ -180,18 +179,19 @@ Window picture::window_about(const Image& image, const Box3& box_mm) {
 
 RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, const Image* image,
                       const PictureOptions& options, const Work& work) {
-    check_size(options);
+    picture::check_picture_size(options);
     check_mesh(mesh);
     if (image) check_image(*image);
     check_threads(work.threads);
     if (options.window) check_window(*options.window);
     const Layout layout = lay_out(options.width_px, options.height_px);
     Canvas canvas(options.width_px, options.height_px);
-    canvas.fill({0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)}, kGround);
+    const Rect all{0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)};
+    canvas.fill(all, kGround);
 
     const std::string& name = options.title.empty() ? contours.name : options.title;
-    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle(mesh, contours, options.has_surface));
-    picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, mesh, contours, work);
+    picture::draw_frame_texts(canvas, {all, layout.unit}, name.empty() ? "segmentation" : name, subtitle(mesh, contours, options.has_surface));
+    picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, {mesh, contours}, work);
     if (options.has_surface && mesh.triangles.empty())
         canvas.text(layout.surface.center(), "empty: there is no surface",
                     {.size_px = 24 * layout.unit, .color = kText, .align = Align::center, .halo = true});

@@ -115,11 +115,12 @@ void draw_orientation_cube(Canvas& canvas, const PanelPlace& place, const Plane&
 
 }  // namespace
 
-void draw_surface_panel(Canvas& canvas, const PanelPlace& place, const TriangleMesh& mesh, const ContourSet& contours,
-                        const Work& work) {
+void draw_surface_panel(Canvas& canvas, const PanelPlace& place, const SurfaceContent& content, const Work& work) {
+    const auto& [mesh, contours, shown] = content;
     const auto clip = canvas.clip(place.rect);
     canvas.fill_gradient(place.rect, {0.155, 0.185, 0.235}, {0.075, 0.090, 0.115});
-    const std::vector<Vec3> points = everything(mesh, contours);
+    const std::vector<Vec3> points =
+        shown.empty() ? everything(mesh, contours) : std::vector<Vec3>(shown.begin(), shown.end());
     const auto width = static_cast<int>(place.rect.width), height = static_cast<int>(place.rect.height);
     const Camera camera = fit_camera(view_plane({}, kTowardsViewer), points, width, height, 0.07);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "kontur/shape/provenance.h"
@@ -16,5 +17,11 @@ void write_png(const std::filesystem::path& path, const RgbImage& image, const P
 
 /// The bytes of such a file, for what shows pictures without files. Errors as `write_png`'s but for io.
 std::string encode_png(const RgbImage& image, const Provenance& provenance = {});
+
+/// Pictures of one size as one that moves (APNG), again and again; programs that know no APNG show the first one. Each is
+/// seen for `seconds`, to a millisecond. Throws as `write_png`, and Error(invalid_input) without a picture, for pictures of
+/// different sizes, and for a time that is not above 0 and at most 60.
+void write_animated_png(const std::filesystem::path& path, std::span<const RgbImage> pictures, double seconds,
+                        const Provenance& provenance = {});
 
 }  // namespace kontur

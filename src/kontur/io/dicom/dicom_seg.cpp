@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 
 #include "kontur/base/checks.h"
@@ -29,6 +30,7 @@ struct SegFrame {
     SlicePlacement placement;
     std::int64_t segment = 0;  ///< 0: the frame is a label map, whose pixels name their segments
     std::int64_t k = 0;
+    std::optional<std::int64_t> time;  ///< from 1, where it is one of several
 };
 
 void check_limit(std::int64_t max_voxels) { check_at_least("the limit of voxels", max_voxels, 1); }
@@ -166,6 +168,8 @@ private:
         for (std::size_t n = 0; n < frames.size(); ++n) try {
                 SegFrame frame;
                 frame.placement = frames[n].placement();
+                if (DcmItem* content = frames[n].group(DCM_FrameContentSequence))
+                    frame.time = dcmtk::integer(*content, DCM_TemporalPositionIndex);
                 if (kind_ == Kind::label_map) {
                     frames_.push_back(frame);
                     continue;
@@ -178,9 +182,19 @@ private:
             } catch (const Error& error) {
                 throw error.with_context(fmt::format("frame {}", n + 1));
             }
+        check_times();
         DcmItem& measures = frames.front().required_group(DCM_PixelMeasuresSequence);
         spacing_ = dcmtk::first_decimal(measures, DCM_SpacingBetweenSlices);
         thickness_ = dcmtk::first_decimal(measures, DCM_SliceThickness);
+    }
+
+    /// Frames of different times would lie on top of each other.
+    void check_times() const {
+        std::set<std::optional<std::int64_t>> times;
+        for (const SegFrame& frame : frames_) times.insert(frame.time);
+        if (times.size() > 1)
+            refuse(fmt::format("the segmentation has {} moments, and one is read; masks of all frames are read from .nii.gz",
+                               times.size()));
     }
 
     double height(const SegFrame& frame) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -118,6 +119,18 @@ struct MaskedSegments {
 std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const LabelledSegments& content,
                                          const DicomSeries& images, const WriteDicomSegOptions& options = {},
                                          const Work& work = {});
+
+/// One segment that moves: its mask at each volume of a series, in their order.
+struct MovingSegment {
+    std::span<const Mask> masks;
+    const DicomSegment& segment;
+    const std::vector<DicomSeries>& volumes;
+};
+
+/// The same for a segment over time: each frame names the slice of its own volume, and its temporal position, which is a
+/// dimension of its own. Throws Error(invalid_input) also unless there is a mask for each volume.
+std::vector<std::string> write_dicom_seg_over_time(const std::filesystem::path& path, const MovingSegment& content,
+                                                   const WriteDicomSegOptions& options = {}, const Work& work = {});
 
 /// Throws Error(invalid_input) also when there are not as many masks as segments.
 std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const MaskedSegments& content,

@@ -155,7 +155,8 @@ std::vector<bool> voxels_of_segment(const MaskedSegments& content, std::size_t s
 
 class SegWriter {
 public:
-    SegWriter(DcmItem& document, const std::vector<DicomHeader>& slices) : document_(document), slices_(slices) {}
+    SegWriter(DcmItem& document, const std::vector<std::vector<DicomHeader>>& times)
+        : document_(document), times_(times), slices_(times.front()) {}
 
     void put_header(std::size_t segments) {
         const DicomHeader& first = slices_.front();
@@ -165,7 +166,7 @@ public:
         put(document_, DCM_ContentLabel, "SEGMENTATION");
         put(document_, DCM_ContentDescription, "");
         put(document_, DCM_ContentCreatorName, "");
-        put(document_, DCM_NumberOfFrames, static_cast<std::int64_t>(segments * slices_.size()));
+        put(document_, DCM_NumberOfFrames, static_cast<std::int64_t>(segments * times_.size() * slices_.size()));
         put(document_, DCM_SamplesPerPixel, 1);
         put(document_, DCM_PhotometricInterpretation, "MONOCHROME2");
         put(document_, DCM_Rows, first.rows);
@@ -209,15 +210,17 @@ public:
         DcmItem& series = append_item(document_, DCM_ReferencedSeriesSequence);
         put(series, DCM_SeriesInstanceUID, slices_.front().series_uid);
         std::set<std::string> named;
-        for (const DicomHeader& slice : slices_)
-            if (named.insert(slice.sop_instance_uid).second)
-                put_file_reference(append_item(series, DCM_ReferencedInstanceSequence), slice);
+        for (const std::vector<DicomHeader>& slices : times_)
+            for (const DicomHeader& slice : slices)
+                if (named.insert(slice.sop_instance_uid).second)
+                    put_file_reference(append_item(series, DCM_ReferencedInstanceSequence), slice);
     }
 
     void put_dimensions() {
         const std::string uid = new_uid();
         put(append_item(document_, DCM_DimensionOrganizationSequence), DCM_DimensionOrganizationUID, uid);
         put_dimension(uid, DCM_ReferencedSegmentNumber, DCM_SegmentIdentificationSequence, "segment");
+        if (has_times()) put_dimension(uid, DCM_TemporalPositionIndex, DCM_FrameContentSequence, "time");
         put_dimension(uid, DCM_ImagePositionPatient, DCM_PlanePositionSequence, "position");
     }
 
@@ -234,17 +237,24 @@ public:
         put(measures, DCM_SpacingBetweenSlices, to_decimal_string(spacing));
     }
 
-    void put_frame(std::size_t segment, std::size_t k) {
+    void put_frame(std::size_t segment, std::size_t time, std::size_t k) {
+        const DicomHeader& slice = times_[time][k];
         const Vec3& position = slices_[k].placement.position;
         DcmItem& frame = append_item(document_, DCM_PerFrameFunctionalGroupsSequence);
         DcmItem& content = append_item(frame, DCM_FrameContentSequence);
-        put_numbers(content, DCM_DimensionIndexValues, {static_cast<Uint32>(segment), static_cast<Uint32>(k + 1)});
+        std::vector<Uint32> numbers{static_cast<Uint32>(segment)};
+        if (has_times()) {
+            numbers.push_back(static_cast<Uint32>(time + 1));
+            put_numbers(content, DCM_TemporalPositionIndex, {numbers.back()});
+        }
+        numbers.push_back(static_cast<Uint32>(k + 1));
+        put_numbers(content, DCM_DimensionIndexValues, numbers);
         put(append_item(frame, DCM_PlanePositionSequence), DCM_ImagePositionPatient,
             decimals({position.x, position.y, position.z}));
         DcmItem& derivation = append_item(frame, DCM_DerivationImageSequence);
         put_code(derivation, DCM_DerivationCodeSequence, kSegmentation);
         DcmItem& source = append_item(derivation, DCM_SourceImageSequence);
-        put_image_reference(source, slices_[k]);
+        put_image_reference(source, slice);
         put_code(source, DCM_PurposeOfReferenceCodeSequence, kSource);
         put(append_item(frame, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber,
             static_cast<std::int64_t>(segment));
@@ -256,7 +266,7 @@ private:
         segment.putAndInsertUint16Array(DCM_RecommendedDisplayCIELabValue, lab.data(), lab.size());
     }
 
-    static void put_numbers(DcmItem& item, const DcmTagKey& tag, const std::array<Uint32, 2>& numbers) {
+    static void put_numbers(DcmItem& item, const DcmTagKey& tag, const std::vector<Uint32>& numbers) {
         auto element = std::make_unique<DcmUnsignedLong>(DcmTag(tag));
         element->putUint32Array(numbers.data(), numbers.size());
         if (item.insert(element.get(), /*replaceOld=*/OFTrue).good()) (void)element.release();  // now the item's
@@ -278,8 +288,11 @@ private:
         put(item, DCM_DimensionDescriptionLabel, name);
     }
 
+    bool has_times() const { return times_.size() > 1; }
+
     DcmItem& document_;
-    const std::vector<DicomHeader>& slices_;
+    const std::vector<std::vector<DicomHeader>>& times_;
+    const std::vector<DicomHeader>& slices_;  ///< of the first of them, where all lie
 };
 
 /// All frames as one row of bits without gaps between them, the lowest bit of a byte first (PS3.5 8.1.1).
@@ -297,12 +310,12 @@ private:
     std::uint64_t count_ = 0;
 };
 
-std::uint64_t checked_bits(const Grid& grid, std::size_t segments) {
-    const std::uint64_t bits = static_cast<std::uint64_t>(grid.voxel_count()) * segments;
+std::uint64_t checked_bits(const Grid& grid, std::size_t segments, std::size_t times) {
+    const std::uint64_t bits = static_cast<std::uint64_t>(grid.voxel_count()) * segments * times;
     const std::uint64_t limit = std::numeric_limits<std::uint32_t>::max();
     if (bits / 8 >= limit - 16)
         throw Error(ErrorKind::too_large, fmt::format("{} segments of {} voxels need {} bytes; a DICOM file holds up to {}",
-                                                      segments, grid.voxel_count(), bits / 8, limit));
+                                                      segments * times, grid.voxel_count(), bits / 8, limit));
     return bits;
 }
 
@@ -335,8 +348,9 @@ Grid grid_of(const std::vector<DicomHeader>& slices) {
 /// Segments on the voxels of the images.
 struct SegmentVoxels {
     const std::vector<DicomSegment>& segments;
-    const std::vector<DicomHeader>& slices;                   ///< of the images
-    std::function<std::vector<bool>(std::size_t)> voxels_of;  ///< for each voxel whether it lies in segment s
+    const std::vector<std::vector<DicomHeader>>& times;  ///< slices of the images, at each time; one without times
+    /// For each voxel whether it lies in segment s at time t.
+    std::function<std::vector<bool>(std::size_t, std::size_t)> voxels_of;
 };
 
 std::vector<std::string> names_of(const std::vector<DicomSegment>& segments) {
@@ -347,34 +361,36 @@ std::vector<std::string> names_of(const std::vector<DicomSegment>& segments) {
 
 std::vector<std::string> write_segments(const std::filesystem::path& path, const SegmentVoxels& content,
                                         const DicomSeries& images, const WriteDicomSegOptions& options, const Work& work) {
-    const auto& [segments, slices, voxels_of] = content;
+    const auto& [segments, times, voxels_of] = content;
     std::vector<std::string> notes;
     const std::vector<std::string> names = dcmtk::stored_names(names_of(segments), "segment", notes);
-    const Grid grid = grid_of(slices);
-    BitRow bits(checked_bits(grid, segments.size()));
+    const Grid grid = grid_of(times.front());
+    BitRow bits(checked_bits(grid, segments.size(), times.size()));
     DcmFileFormat file;
     DcmItem& document = *file.getDataset();
     const std::string description =
         dcmtk::description_with_names(options.series_description, WriteDicomSegOptions{}.series_description, names);
     dcmtk::start_document(document, images, {UID_SegmentationStorage, "SEG", description, options.series_number});
     dcmtk::put_contribution(document, options.provenance);
-    SegWriter writer(document, slices);
+    SegWriter writer(document, times);
     writer.put_header(segments.size());
     writer.put_image_references();
     writer.put_dimensions();
     writer.put_shared_groups(grid.index_to_mm.column(2));
-    std::vector<bool> taken(static_cast<std::size_t>(grid.voxel_count()));
+    std::vector<std::vector<bool>> taken(times.size(), std::vector<bool>(static_cast<std::size_t>(grid.voxel_count())));
     bool overlap = false;
     for (std::size_t s = 0; s < segments.size(); ++s) {
         writer.put_segment(segments[s], names[s], s + 1, options.algorithm, notes);
-        const std::vector<bool> inside = voxels_of(s);
-        for (std::int64_t k = 0; k < grid.size.k; ++k) {
-            work.report("write frames", static_cast<double>(k) / static_cast<double>(grid.size.k));
-            writer.put_frame(s + 1, static_cast<std::size_t>(k));
-            for (std::size_t n = grid.offset(0, 0, k); n < grid.offset(0, 0, k + 1); ++n) {
-                bits.append(inside[n]);
-                overlap = overlap || (inside[n] && taken[n]);
-                taken[n] = taken[n] || inside[n];
+        for (std::size_t t = 0; t < times.size(); ++t) {
+            const std::vector<bool> inside = voxels_of(s, t);
+            for (std::int64_t k = 0; k < grid.size.k; ++k) {
+                work.report("write frames", static_cast<double>(k) / static_cast<double>(grid.size.k));
+                writer.put_frame(s + 1, t, static_cast<std::size_t>(k));
+                for (std::size_t n = grid.offset(0, 0, k); n < grid.offset(0, 0, k + 1); ++n) {
+                    bits.append(inside[n]);
+                    overlap = overlap || (inside[n] && taken[t][n]);
+                    taken[t][n] = taken[t][n] || inside[n];
+                }
             }
         }
     }
@@ -390,13 +406,13 @@ std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, cons
                                          const DicomSeries& images, const WriteDicomSegOptions& options, const Work& work) {
     const auto& [labels, segments] = content;
     dcmtk::set_up();
-    const std::vector<DicomHeader> slices = read_slice_headers(images);
-    const Grid grid = grid_of(slices);
+    const std::vector<std::vector<DicomHeader>> slices{read_slice_headers(images)};
+    const Grid grid = grid_of(slices.front());
     check_image(labels, "the label map");
     check_segments(labels, segments);
     const auto values =
         Lookup(labels.grid, grid).values<std::uint16_t>([&](std::size_t offset) { return sample(labels, offset); });
-    const auto voxels_of = [&values, &segments = content.segments](std::size_t s) {
+    const auto voxels_of = [&values, &segments = content.segments](std::size_t s, std::size_t) {
         std::vector<bool> inside(values.size());
         std::transform(values.begin(), values.end(), inside.begin(),
                        [number = segments[s].number](std::uint16_t value) { return value == number; });
@@ -410,12 +426,37 @@ std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path
                                                const Work& work) {
     const auto& [masks, segments] = content;
     dcmtk::set_up();
-    const std::vector<DicomHeader> slices = read_slice_headers(images);
-    const Grid grid = grid_of(slices);
+    const std::vector<std::vector<DicomHeader>> slices{read_slice_headers(images)};
+    const Grid grid = grid_of(slices.front());
     check_masks(masks, segments);
     for (const Mask& mask : masks) check_mask(mask);
-    const auto voxels_of = [&](std::size_t s) { return voxels_of_segment(content, s, grid); };
+    const auto voxels_of = [&](std::size_t s, std::size_t) { return voxels_of_segment(content, s, grid); };
     return write_segments(path, {segments, slices, voxels_of}, images, options, work);
+}
+
+std::vector<std::string> write_dicom_seg_over_time(const std::filesystem::path& path, const MovingSegment& content,
+                                                   const WriteDicomSegOptions& options, const Work& work) {
+    const auto& [masks, segment, volumes] = content;
+    dcmtk::set_up();
+    if (masks.empty() || masks.size() != volumes.size())
+        throw invalid(fmt::format("there are {} masks for {} volumes in time; each needs one", masks.size(), volumes.size()));
+    std::vector<std::vector<DicomHeader>> times;
+    for (const DicomSeries& volume : volumes) {
+        times.push_back(read_slice_headers(volume));
+        if (times.back().size() != times.front().size())
+            throw invalid(fmt::format("volume {} has {} slices, and volume 1 has {}", times.size(), times.back().size(),
+                                      times.front().size()));
+    }
+    const std::vector<DicomSegment> segments{segment};
+    const auto is_inside = [](std::uint8_t v) { return v != 0; };
+    if (std::none_of(masks.begin(), masks.end(), [&](const Mask& m) { return std::ranges::any_of(m.values, is_inside); }))
+        throw invalid(fmt::format("the segment '{}' has no voxels", segment.label));
+    for (const Mask& mask : masks) check_mask(mask);
+    const auto voxels_of = [&](std::size_t, std::size_t t) {
+        const Mask& mask = masks[t];
+        return Lookup(mask.grid, grid_of(times[t])).values<bool>([&](std::size_t n) { return mask.values[n] != 0; });
+    };
+    return write_segments(path, {segments, times, voxels_of}, volumes.front(), options, work);
 }
 
 }  // namespace kontur

@@ -34,8 +34,7 @@ public:
         const Image largest = image_of(volumes.largest, work), smallest = image_of(volumes.smallest, work);
         const ContourSet of_largest = drawn_in(volumes.largest), of_smallest = drawn_in(volumes.smallest);
         const auto moment = [&](const char* what, std::size_t n, const ContourSet& drawn, const Image& image) {
-            return PictureMoment{fmt::format("{}: frame {}, {}", what, n + 1, in_ml(volumes.volumes_ml[n])),
-                                 segmented_.result.meshes[n], drawn, &image};
+            return PictureMoment{fmt::format("{}: frame {}", what, n + 1), segmented_.result.meshes[n], drawn, &image};
         };
         MovingPictureContent content{{moment("Largest", volumes.largest, of_largest, largest),
                                       moment("Smallest", volumes.smallest, of_smallest, smallest)},

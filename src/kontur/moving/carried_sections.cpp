@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -94,9 +93,9 @@ double chosen_speed_mm(const std::vector<PointInTime>& points, const DrawnMoment
     return kSpeeds[static_cast<std::size_t>(std::min_element(errors.begin(), errors.end()) - errors.begin())] * radius;
 }
 
-/// Where values vanish in a plane, near what was drawn in it at other moments.
-std::vector<Contour> section_of(const std::function<std::vector<double>(const std::vector<Vec3>&)>& values,
-                                const Plane& plane, const Box3& region, double radius_mm) {
+/// Where the function vanishes in a plane, near what was drawn in it at other moments.
+std::vector<Contour> section_of(const SpaceTimeFunction& function, const Plane& plane, double time, const Box3& region,
+                                double radius_mm) {
     const double step = kStep * radius_mm;
     std::vector<Contour> contours;
     const std::optional<IsolineLattice> lattice = lattice_over(plane, corners(region.padded(2 * step)), step);
@@ -104,25 +103,12 @@ std::vector<Contour> section_of(const std::function<std::vector<double>(const st
     std::vector<Vec3> nodes;
     for (std::int64_t j = 0; j < lattice->rows; ++j)
         for (std::int64_t i = 0; i < lattice->columns; ++i) nodes.push_back(plane.from_uv(lattice->uv(i, j)));
-    for (const Isoline& line : isolines(*lattice, values(nodes))) {
+    for (const Isoline& line : isolines(*lattice, function.values(nodes, time))) {
         if (line.area_mm2 < kLeastArea * radius_mm * radius_mm || line.points.size() < 3) continue;
         Contour& contour = contours.emplace_back(Contour{plane, {}, true, line.hole});
         for (const auto& uv : line.points) contour.points.push_back(plane.from_uv(uv));
     }
     return contours;
-}
-
-/// Those of the process, and by the moment's weight those of its own function.
-std::vector<double> values_at_moment(const SpaceTimeFunction& process, const WholeMotion& whole, const DrawnMoments& drawn,
-                                     std::size_t moment, const std::vector<Vec3>& nodes) {
-    std::vector<double> values = process.values(nodes, drawn.moments.course.times()[moment]);
-    const ImplicitFunction* own = whole.function_of(moment);
-    if (!own) return values;
-    std::vector<double> own_values(nodes.size());
-    own->values(nodes, own_values, {.threads = 1});
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-        values[n] = std::lerp(values[n], own_values[n], drawn.weights[moment]);
-    return values;
 }
 
 }  // namespace
@@ -161,9 +147,6 @@ std::vector<std::vector<Contour>> carried_sections(const ContourSet& set, const 
     parallel_for(static_cast<std::int64_t>(carried.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
             if (drawn.weights[k] == 1) continue;
-            const auto values = [&](const std::vector<Vec3>& nodes) {
-                return values_at_moment(function, whole, drawn, k, nodes);
-            };
             for (std::size_t p = 0; p < planes.size(); ++p) {
                 if (std::find(drawn.missing[k].begin(), drawn.missing[k].end(), planes[p]) == drawn.missing[k].end())
                     continue;
@@ -171,7 +154,8 @@ std::vector<std::vector<Contour>> carried_sections(const ContourSet& set, const 
                 for (const std::size_t n : in[p])
                     for (const Vec3& point : set.contours[n].points) region.extend(point);
                 // An outline may be larger at this moment than at others.
-                const std::vector<Contour> section = section_of(values, planes[p], region.padded(0.25 * ball.radius), ball.radius);
+                const std::vector<Contour> section = section_of(function, planes[p], moments.course.times()[k],
+                                                                region.padded(0.25 * ball.radius), ball.radius);
                 carried[k].insert(carried[k].end(), section.begin(), section.end());
             }
         }

@@ -5,9 +5,8 @@
 
 namespace kontur {
 
-WholeMotion::WholeMotion(const TimeCourse& course, std::vector<std::optional<ImplicitFunction>> functions,
-                         const std::vector<double>& weights)
-    : functions_(std::move(functions)) {
+WholeMotion::WholeMotion(const TimeCourse& course, const std::vector<std::optional<ImplicitFunction>>& functions,
+                         const std::vector<double>& weights) {
     double below = 0;
     for (const double level : std::set<double>(weights.begin(), weights.end())) {
         if (level == 0) continue;
@@ -16,16 +15,12 @@ WholeMotion::WholeMotion(const TimeCourse& course, std::vector<std::optional<Imp
         for (std::size_t k = 0; k < weights.size(); ++k) {
             if (weights[k] < level) continue;
             times.push_back(course.times()[k]);
-            reaching.push_back(functions_[k].value());
+            reaching.push_back(functions[k].value());
         }
         levels_.push_back({level - below, {TimeCourse(std::move(times), course.cycle()), std::move(reaching)}});
         below = level;
     }
     without_ = 1 - below;
-}
-
-const ImplicitFunction* WholeMotion::function_of(std::size_t moment) const {
-    return functions_[moment] ? &*functions_[moment] : nullptr;
 }
 
 void WholeMotion::lay_over(std::span<const Vec3> points_mm, double time, std::span<double> values, const Work& work) const {

@@ -17,11 +17,9 @@ namespace kontur {
 class WholeMotion {
 public:
     /// `functions` are those of the course's moments; of a weight of 0 there is none.
-    WholeMotion(const TimeCourse& course, std::vector<std::optional<ImplicitFunction>> functions,
+    WholeMotion(const TimeCourse& course, const std::vector<std::optional<ImplicitFunction>>& functions,
                 const std::vector<double>& weights);
 
-    /// The function of a moment of a weight above 0; else nullptr.
-    const ImplicitFunction* function_of(std::size_t moment) const;
     /// Puts the values into those given, which stay where no weight reaches a level.
     void lay_over(std::span<const Vec3> points_mm, double time, std::span<double> values, const Work& work = {}) const;
 
@@ -30,7 +28,6 @@ private:
         double share;  ///< of all levels
         MovingFunction motion;
     };
-    std::vector<std::optional<ImplicitFunction>> functions_;
     std::vector<Level> levels_;
     double without_ = 1;  ///< share of levels that no weight reaches
 };

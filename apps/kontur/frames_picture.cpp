@@ -16,7 +16,7 @@ namespace kontur::app {
 namespace {
 
 constexpr double kUsualSeconds = 0.1;  // for a frame, where the image does not say
-constexpr int kMovingWidth = 1200, kMovingHeight = 420;
+constexpr int kMovingWidth = 1000, kMovingHeight = 350;
 
 class FramesPicture {
 public:

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <map>
+#include <memory>
+
 #include "bindings.h"
 #include "fields.h"
+#include "kontur/base/checks.h"
 #include "kontur/segment_moving.h"
 #include "points.h"
 #include "segment_keywords.h"
@@ -14,6 +18,18 @@ py::array_t<double> values_at(const MovingFunction& function, const ArrayOf<doub
     const ReleasedLock released;
     function.values(span_of(points), time, out, {.threads = threads});
     return values;
+}
+
+FramesToSegment frames_of(const Grid& grid, const std::vector<double>& times, std::optional<std::vector<Image>> images) {
+    if (!images) return grid;
+    check_same_count("images", images->size(), "times", times.size());
+    std::map<double, std::shared_ptr<const Image>> at;
+    for (std::size_t n = 0; n < times.size(); ++n)
+        at.emplace(times[n], std::make_shared<const Image>(std::move((*images)[n])));
+    return {grid, [at = std::move(at)](double time) {
+                const auto found = at.find(time);
+                return found == at.end() ? nullptr : found->second;
+            }};
 }
 
 void bind_function(py::module_& m) {
@@ -132,8 +148,8 @@ void bind_moving(py::module_& m) {
         m, "segment_moving", R"(Contours drawn at some moments to masks at all times.
 
 Each moment at which something was drawn is segmented by itself, as `segment` does. Where little was drawn, sections in planes
-that were drawn at other moments follow from those. The image's voxels are not looked at. The same bytes for any number of
-threads, and the same as the command line's. Other Python threads run meanwhile.
+that were drawn at other moments follow from those. Where most was drawn, the image of that time is followed, as far as that
+helps. The same bytes for any number of threads, and the same as the command line's. Other Python threads run meanwhile.
 
 Parameters
 ----------
@@ -142,6 +158,8 @@ contours : ContourSet
 grid : Grid
 times : sequence of float
     At which masks are made, in the contours' unit, such as range(1, 21).
+images : sequence of Image, optional
+    One for each of the times, on the grid; without them the contours do alone.
 @threads
 progress : callable, optional
     As for `segment`.
@@ -168,13 +186,15 @@ Examples
 >>> bool(moving.function(case.grid.bounds_mm.mean(0), 2.5) == moving.function(case.grid.bounds_mm.mean(0), 1))
 True
 )",
-        [keywords](const ContourSet& contours, const Grid& grid, const std::vector<double>& times, int threads,
-                   const py::object& progress, const py::object& stop, const py::kwargs& given) {
+        [keywords](const ContourSet& contours, const Grid& grid, const std::vector<double>& times,
+                   std::optional<std::vector<Image>> images, int threads, const py::object& progress, const py::object& stop,
+                   const py::kwargs& given) {
             const SegmentOptions options = keywords.parse("segment_moving", given);
+            const FramesToSegment frames = frames_of(grid, times, std::move(images));
             return run({progress, stop, threads},
-                       [&](const Work& work) { return segment_moving(contours, grid, times, options, work); });
+                       [&](const Work& work) { return segment_moving(contours, frames, times, options, work); });
         },
-        py::arg("contours"), py::arg("grid"), py::arg("times"), py::kw_only(), kThreads, kProgress, kStop,
+        py::arg("contours"), py::arg("grid"), py::arg("times"), py::kw_only(), py::arg("images") = py::none(), kThreads, kProgress, kStop,
         KeywordText(keywords));
 }
 

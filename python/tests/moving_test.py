@@ -49,6 +49,29 @@ def test_masks_volumes_and_the_function(made, grid):
     assert made.function.values([18, 0, 0], 3).shape == ()
 
 
+def test_each_volume_has_an_interval_and_so_has_the_fraction(made):
+    for one, ml in zip(made.volumes.intervals, made.volumes.volumes_ml):
+        assert one.low_ml < ml < one.high_ml
+    low, high = made.volumes.ejection_interval
+    assert 0 < low < made.volumes.ejection_fraction < high < 1
+
+
+def test_frames_have_surfaces_where_they_are_asked_for(contours, grid, made):
+    assert made.meshes == []
+    meshes = kontur.segment_moving(contours, grid, range(1, FRAMES + 1), mesh=True).meshes
+    for mesh, ml in zip(meshes, made.volumes.volumes_ml, strict=True):
+        assert kontur.signed_volume_mm3(mesh) / 1000 == pytest.approx(ml, rel=0.03)
+
+
+def test_whole_moments_follow_the_images_of_their_times(contours, grid, made):
+    images = [kontur.Image(numpy.where(mask.values, 900, 100).astype("int16"), grid) for mask in made.masks]
+    followed = kontur.segment_moving(contours, grid, range(1, FRAMES + 1), images=images)
+    still = kontur.ContourSet([kontur.Contour(c.points, c.plane) for c in contours[4:]])
+    assert numpy.array_equal(followed.masks[4].values, kontur.segment(still, grid, image=images[4]).mask.values)
+    with pytest.raises(kontur.InvalidInputError, match="there are 2 images"):
+        kontur.segment_moving(contours, grid, range(1, FRAMES + 1), images=images[:2])
+
+
 def test_contours_keep_their_moment(contours, tmp_path):
     assert kontur.is_moving(contours) and not kontur.is_moving(contours[:4])
     assert contours[4].frame == 5 and contours[4].time_s is None

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "kontur/view/moving_picture.h"
 #include "kontur/view/panels.h"
 #include "support/bodies.h"
 #include "support/expect_error.h"
@@ -200,6 +201,57 @@ TEST(Rounded, KeepsTheSignificantDigits) {
     EXPECT_EQ(picture::rounded(0.2, 1), "0.2");
     EXPECT_EQ(picture::rounded(0, 4), "0.000");
     EXPECT_EQ(picture::rounded(-0.5, 2), "-0.50");
+}
+
+/// A ball that shrinks from 20 to 14 mm over 5 frames, at its first and its last one.
+struct ShrinkingBall {
+    TriangleMesh large = ball({0, 0, 0}, 20, 4), small = ball({0, 0, 0}, 14, 4);
+    ContourSet drawn = three_circles({}, 20), none;
+    std::vector<Vec3> shown = large.points;
+    MovingPictureContent content{{{"Largest", large, drawn, nullptr}, {"Smallest", small, none, nullptr}},
+                                 drawn,
+                                 shown,
+                                 {{33, 28, 22, 16, 11}, {}, {0}, 0, 4},
+                                 {}};
+};
+
+TEST(MovingPicture, BothMomentsAreAtOneScale) {
+    ShrinkingBall here;
+    const RgbImage both = make_moving_picture(here.content, {.width_px = 800, .height_px = 500});
+    here.content.moments[1] = here.content.moments[0];
+    const RgbImage twice = make_moving_picture(here.content, {.width_px = 800, .height_px = 500});
+    const auto line = [](const RgbImage& image, int from, int to) {
+        int count = 0;
+        for (int y = from; y < to; ++y)
+            for (int x = 0; x < image.width / 3; ++x) {
+                const auto [r, g, b] = image.at(x, y);
+                count += b > 120 && b > r + 30;  // the surface
+            }
+        return count;
+    };
+    const int large = line(both, 40, 255), small = line(both, 262, 470);
+    EXPECT_NEAR(static_cast<double>(small) / large, 0.49, 0.1) << "(14 / 20)^2";
+    EXPECT_GT(line(twice, 262, 470), 0.9 * large);
+}
+
+TEST(MovingPicture, TheCurveHasABandWhereIntervalsAreKnown) {
+    ShrinkingBall here;
+    const RgbImage without = make_moving_picture(here.content, {.width_px = 800, .height_px = 500});
+    here.content.curve.intervals = {{30, 36}, {22, 34}, {17, 27}, {12, 20}, {10, 12}};
+    const RgbImage with = make_moving_picture(here.content, {.width_px = 800, .height_px = 500});
+    EXPECT_NE(without, with);
+    for (int y = 0; y < with.height; ++y)
+        for (int x = 0; x < with.width / 2; ++x) ASSERT_EQ(with.at(x, y), without.at(x, y)) << "beside the curve";
+    EXPECT_EQ(with, make_moving_picture(here.content, {.width_px = 800, .height_px = 500}, {.threads = 1}));
+}
+
+TEST(MovingPicture, RefusesWhatItCannotShow) {
+    ShrinkingBall here;
+    EXPECT_KONTUR_ERROR(make_moving_picture(here.content, {.width_px = 100}), ErrorKind::invalid_input, "100 x 1000 pixels");
+    here.content.curve.values_ml.clear();
+    EXPECT_KONTUR_ERROR(make_moving_picture(here.content), ErrorKind::invalid_input, "there is no volume of a frame");
+    here.content.moments.clear();
+    EXPECT_KONTUR_ERROR(make_moving_picture(here.content), ErrorKind::invalid_input, "there is no moment to show");
 }
 
 }  // namespace

@@ -23,6 +23,10 @@ export class BinaryReply<Header> {
     this.entries = arrays ?? {};
   }
 
+  get bytes(): number {
+    return this.buffer.byteLength;
+  }
+
   has(name: string): boolean {
     return name in this.entries;
   }

@@ -21,6 +21,7 @@ import { ICONS } from "../dom/icons";
 import { OverlayPainter } from "./overlay";
 import { newestOutlines, toldOutline } from "./outlines";
 import { PLANE_COLORS } from "../model/palette";
+import { SliceFrames } from "./slice_frames";
 import { SliceImage } from "./slice_image";
 import { SecondSlice } from "./second_slice";
 import { SliceSlider } from "./slice_slider";
@@ -41,6 +42,15 @@ export interface SliceViewServices {
   failed(error: unknown): void;
 }
 
+/** What has come of a slice, and its size. */
+interface KeptSlice {
+  reply: BinaryReply<SliceHeader>;
+  width: number;
+  height: number;
+  plane: PixelPlane;
+  time: number;
+}
+
 /** One pane: a slice as the server computes it, vectors over it, a slider beside it. */
 export class SliceView {
   readonly element: HTMLElement;
@@ -53,6 +63,7 @@ export class SliceView {
   private readonly position = el("span", { class: "slice-number" });
   private slice: ShownSlice | null = null;
   private readonly vectors: SliceVectors;
+  private readonly frames = new SliceFrames<KeptSlice>();
   private readonly requests: Latest<{ pixels: Pixels }>;
   private askedPlane = "";
   private valuesComing = ""; // of which plane
@@ -132,6 +143,7 @@ export class SliceView {
     const needsPixels = this.image.isEmpty || key !== this.asked;
     const needsSecond = this.second.needs(this.planeKey());
     if (pixels && !needsPixels && !needsSecond) return;
+    if (needsPixels && !needsSecond && this.showKept(key)) return;
     const isOtherWindow = needsPixels && !this.image.isEmpty && this.imageKey() === this.askedPlane;
     if (needsPixels) [this.asked, this.askedPlane] = [key, this.imageKey()];
     if (isOtherWindow && !needsSecond && this.valuesComing === this.askedPlane) return; // shown in the window that there is then
@@ -145,6 +157,18 @@ export class SliceView {
     void this.requests.idle().then(() => (this.element.dataset["pending"] = String(this.crossingsTimer !== 0)));
   }
 
+  /** A frame that has been seen needs no server; its outlines may be newer by now. False where it is not known. */
+  private showKept(key: string): boolean {
+    const kept = this.requests.busy ? null : this.frames.get(key);
+    if (!kept) return false;
+    [this.asked, this.askedPlane] = [key, this.imageKey()];
+    this.take(kept, true);
+    this.paint();
+    this.tellState();
+    if (this.lacksOutlines()) this.requests.send({ pixels: false });
+    return true;
+  }
+
   /** Settles when all that was asked for has come. */
   idle(): Promise<void> {
     return this.requests.idle();
@@ -152,6 +176,7 @@ export class SliceView {
 
   /** The second image is to be seen, or not, or another one, or in other colours. */
   secondChanged(): void {
+    this.frames.clear();
     this.second.recolor();
     this.refresh(true);
   }
@@ -168,6 +193,7 @@ export class SliceView {
 
   /** Asks for the points where contours cross the plane: after the surface that is on its way, which users wait for. */
   contoursChanged(): void {
+    this.frames.clear(); // where contours cross is told with a slice
     const isComing = [...this.services.project.surfaces.values()].some(({ stage }) => stage === "outdated" || stage === "preview");
     if (!isComing || !this.slice) return this.refresh(false);
     this.slider.update();
@@ -224,6 +250,7 @@ export class SliceView {
 
   /** Of a server that has started anew, and counts revisions from 1. */
   forgetOutlines(): void {
+    this.frames.clear();
     this.slice?.outlines.clear();
   }
 
@@ -280,24 +307,16 @@ export class SliceView {
     const width = Math.max(1, Math.round(screen.width * ratio));
     const height = Math.max(1, Math.round(screen.height * ratio));
     const { window, time, isAway } = this.services.navigation;
+    const key = this.pixelKey();
     try {
       const raster = { view: this.name, plane, width, height };
       const [reply, laySecond] = await Promise.all([
         this.services.http.slice({ ...raster, window, pixels, outlines: true, ...(isAway && { time }) }),
         this.second.ask(raster, this.planeKey()),
       ]);
-      this.slice = {
-        plane,
-        header: reply.header,
-        outlines: newestOutlines(
-          reply.header.outlines,
-          reply.f32("outline_points"),
-          this.slice && this.slice.time === time && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null,
-        ),
-        time,
-        crossingPoints: reply.f32("crossing_points"),
-      };
-      if (pixels) this.keepPixels(reply, width, height);
+      const made = { reply, width, height, plane, time };
+      this.take(made, pixels !== false);
+      if (pixels && this.services.navigation.times > 1) this.frames.keep(key, made, reply.bytes);
       laySecond?.();
       this.paintNow();
     } catch (error) {
@@ -307,6 +326,21 @@ export class SliceView {
     }
     this.tellState();
     this.element.dataset["slices"] = String(Number(this.element.dataset["slices"] ?? 0) + 1);
+  }
+
+  private take({ reply, width, height, plane, time }: KeptSlice, hasPixels: boolean): void {
+    this.slice = {
+      plane,
+      header: reply.header,
+      outlines: newestOutlines(
+        reply.header.outlines,
+        reply.f32("outline_points"),
+        this.slice && this.slice.time === time && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null,
+      ),
+      time,
+      crossingPoints: reply.f32("crossing_points"),
+    };
+    if (hasPixels) this.keepPixels(reply, width, height);
   }
 
   /** The window may have changed since values were asked for. */

@@ -70,7 +70,11 @@ describe("a heart that beats", () => {
     assert.equal(await page.locator(".time-mark").count(), 2);
     const ml = (mm: number) => (4 / 3e3) * Math.PI * mm ** 3;
     assert.ok(Math.abs((await volume()) / ml(radius_mm(5)) - 1) < 0.1, `${await volume()} ml in frame 5`);
-    const fraction = Number(/([\d.]+) %/.exec((await page.locator("[data-test=ejection]").textContent())!)![1]);
+    const told = (await page.locator("[data-test=ejection]").textContent())!;
+    const fraction = Number(/([\d.]+) %/.exec(told)![1]);
+    const [low, high] = /\(([\d.]+) to ([\d.]+)\)/.exec(told)!.slice(1).map(Number);
+    assert.ok(low! < fraction && fraction < high!, told);
+    assert.ok(((await page.locator(".curve-band").boundingBox())?.height ?? 0) > 5, "the interval is a band");
     assert.ok(Math.abs(fraction - 100 * (1 - (22 / 38) ** 3)) < 3, `ejection fraction ${fraction} %`);
     await page.click(".time-mark >> nth=0");
     assert.equal(await frame(), "1 / 8");
@@ -109,9 +113,19 @@ describe("a heart that beats", () => {
       seen.add(now);
       shown.add((await viewer.pane("surface").getAttribute("data-revisions"))!);
     }
-    await page.keyboard.press("t");
     assert.deepEqual([seen.size, shown.size], [FRAMES, FRAMES]);
-    console.log(`played ${((1000 * steps) / (Date.now() - began)).toFixed(1)} frames a second`);
+    const slices = () => viewer.pane("axial").getAttribute("data-slices");
+    const asked = await slices();
+    const again = Date.now();
+    let round = 0;
+    for (let last = (await frame())!; round < 2 * FRAMES && Date.now() - again < 20_000;) {
+      const now = (await frame())!;
+      if (now !== last) ++round;
+      last = now;
+    }
+    assert.equal(await slices(), asked, "frames that have been seen need no server");
+    console.log(`played ${((1000 * steps) / (again - began)).toFixed(1)} frames a second, then ${((1000 * round) / (Date.now() - again)).toFixed(1)}`);
+    await page.keyboard.press("t");
   });
 
   test("the outline is proposed in a frame where nothing is drawn; Enter takes it, undo takes it back", async () => {
@@ -171,7 +185,8 @@ describe("a heart that beats", () => {
     assert.equal(masks.name, "beating_Structure_1.nii.gz");
     const table = (await viewer.export("volumes.csv")).bytes.toString().trim().split("\n");
     assert.equal(table.length, FRAMES + 1);
-    assert.equal(table[0], "frame,time_s,volume_ml,contours,phase");
+    assert.equal(table[0], "frame,time_s,volume_ml,contours,phase,low_ml,high_ml");
+    assert.ok(table.slice(1).every((row) => Number(row.split(",")[5]) < Number(row.split(",")[6])));
     const one = await viewer.export("mask.nii.gz");
     assert.equal(one.name, "beating_Structure_1_frame_4.nii.gz");
     const contours = JSON.parse((await viewer.export("contours.json")).bytes.toString()) as { cycle_frames: number };

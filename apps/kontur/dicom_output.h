@@ -75,12 +75,11 @@ std::vector<std::string> write_masks_over_time(const OutputFile& file, std::span
 
 /// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label,
 /// named as in the source where that names them. In NIfTI these names go into a table.
-std::vector<std::string> write_image(const OutputFile& file, const Image& image, const ImageInput& source,
-                                     const Work& work);
+std::vector<std::string> write_image(const OutputFile& file, const Image& image, const ImageInput& source, const Work& work);
 
 /// Writes a label map as a DICOM segmentation with one segment for each label.
-std::vector<std::string> write_labels(const OutputFile& file, const Image& labels,
-                                      const std::vector<DicomSegment>& segments, const Work& work);
+std::vector<std::string> write_labels(const OutputFile& file, const Image& labels, const std::vector<DicomSegment>& segments,
+                                      const Work& work);
 
 /// Writes a DICOM segmentation whose segments may overlap.
 std::vector<std::string> write_structures(const OutputFile& file, const Structures& structures, const Work& work);

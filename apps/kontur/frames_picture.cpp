@@ -79,7 +79,8 @@ private:
 
     Image image_of(std::size_t frame, const Work& work) const {
         const ImageInput& input = segmented_.command.image;
-        return read_image(input.path, of_frame(input.options, segmented_.frames, static_cast<std::int64_t>(frame) + 1), work);
+        return read_image(input.path, of_frame(input.options, segmented_.frames, static_cast<std::int64_t>(frame) + 1),
+                          work);
     }
 
     ContourSet drawn_in(std::size_t frame) const {

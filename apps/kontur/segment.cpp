@@ -190,8 +190,8 @@ void run(const SegmentCommand& words, Console& console) {
     if (is_moving(command, contours.contours)) return segment_moving(command, std::move(contours), console);
     if (command.cycle) throw Error(ErrorKind::invalid_input, "--cycle is for contours that were drawn at several moments");
     if (is_animation(command))
-        throw Error(ErrorKind::invalid_input, fmt::format("{} would move, and contours are of one moment; a .png does not",
-                                                          command.picture.string()));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} would move, and contours are of one moment; a .png does not", command.picture.string()));
     const Work work = console.work(command.threads);
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch reading(seconds);

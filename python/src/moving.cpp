@@ -117,7 +117,8 @@ void bind_results(py::module_& m) {
     py::class_<MovingSegmentation> type(m, "MovingSegmentation", "What `segment_moving` made.");
     type.def_readonly("times", &MovingSegmentation::times, "list of float");
     type.def_readonly("masks", &MovingSegmentation::masks, "list of Mask: at these times.");
-    type.def_readonly("meshes", &MovingSegmentation::meshes, "list of TriangleMesh: at these times, with `mesh`; else none.");
+    type.def_readonly("meshes", &MovingSegmentation::meshes,
+                      "list of TriangleMesh: at these times, with `mesh`; else none.");
     type.def_readonly("function", &MovingSegmentation::function, "MovingFunction: f(x, t) > 0 inside.");
     type.def_readonly("moments", &MovingSegmentation::moments, "list of DrawnMoment");
     type.def_readonly("volumes", &MovingSegmentation::volumes, "VolumeCurve: at these times.");
@@ -194,8 +195,8 @@ True
             return run({progress, stop, threads},
                        [&](const Work& work) { return segment_moving(contours, frames, times, options, work); });
         },
-        py::arg("contours"), py::arg("grid"), py::arg("times"), py::kw_only(), py::arg("images") = py::none(), kThreads, kProgress, kStop,
-        KeywordText(keywords));
+        py::arg("contours"), py::arg("grid"), py::arg("times"), py::kw_only(), py::arg("images") = py::none(), kThreads,
+        kProgress, kStop, KeywordText(keywords));
 }
 
 }  // namespace kontur::python

@@ -39,10 +39,10 @@
 #include "kontur/live_editor.h"
 #include "kontur/segment.h"
 #include "kontur/segment_moving.h"
-#include "kontur/volume_curve.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
 #include "kontur/segment_together.h"
+#include "kontur/volume_curve.h"
 
 // Structures that follow others by rules.
 #include "kontur/derive/derive.h"

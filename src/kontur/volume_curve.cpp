@@ -27,10 +27,12 @@ std::optional<FractionInterval> VolumeCurve::ejection_interval() const {
         most = {std::max(most.low_ml, one.low_ml), std::max(most.high_ml, one.high_ml)};
     }
     const double ratio = volumes_ml[smallest] / volumes_ml[largest];
-    const double up = std::hypot(std::log(least.high_ml / volumes_ml[smallest]), std::log(volumes_ml[largest] / most.low_ml));
+    const double up =
+        std::hypot(std::log(least.high_ml / volumes_ml[smallest]), std::log(volumes_ml[largest] / most.low_ml));
     const double down =
         std::hypot(std::log(volumes_ml[smallest] / least.low_ml), std::log(most.high_ml / volumes_ml[largest]));
-    return FractionInterval{std::clamp(1 - ratio * std::exp(up), 0.0, 1.0), std::clamp(1 - ratio * std::exp(-down), 0.0, 1.0)};
+    return FractionInterval{std::clamp(1 - ratio * std::exp(up), 0.0, 1.0),
+                            std::clamp(1 - ratio * std::exp(-down), 0.0, 1.0)};
 }
 
 VolumeCurve volume_curve(std::vector<double> volumes_ml, std::vector<VolumeInterval> intervals) {

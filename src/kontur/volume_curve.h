@@ -59,7 +59,8 @@ struct MomentSureness {
 std::vector<MomentSureness> sureness_of(const std::vector<DrawnMoment>& moments);
 
 /// Intervals of volumes at times. At a moment it is that of its surface (surface_uncertainty.h), wider where contours were
-/// carried there; between two moments what differs between them adds to it, and how long it takes. None where `moments` has none.
+/// carried there; between two moments what differs between them adds to it, and how long it takes. None where `moments` has
+/// none.
 std::vector<VolumeInterval> volume_intervals(const MaskCourse& course, const std::vector<MomentSureness>& moments,
                                              std::span<const double> times, const std::vector<double>& volumes_ml);
 

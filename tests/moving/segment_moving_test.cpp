@@ -217,7 +217,8 @@ ContourSet with_some_in_frame_4(std::size_t count) {
 }
 
 TEST(SegmentMoving, AMomentBecomesWholeContourByContourWithoutAStep) {
-    // The first contour tells most. None of the others does more than a few voxels' layer, that which makes it whole neither.
+    // The first contour tells most. None of the others does more than a few voxels' layer, that which makes it whole
+    // neither.
     MovingSegmentation before = made(with_some_in_frame_4(1));
     for (std::size_t count = 2; count <= 6; ++count) {
         MovingSegmentation after = made(with_some_in_frame_4(count));
@@ -295,9 +296,10 @@ TEST(SegmentMoving, WithoutACycleNothingMovesOutsideOfTheMomentsAndAWarningSaysS
     EXPECT_EQ(moving.masks[11].values, moving.masks[6].values);
     ASSERT_EQ(moving.warnings.size(), 2);
     EXPECT_NE(moving.warnings[0].find("nothing moves before the first and after the last"), std::string::npos);
-    EXPECT_EQ(moving.warnings[1],
-              "the volume is largest in 3 frames, of which frame 1 is the first; the volume is smallest in 6 frames, of which "
-              "frame 7 is the first");
+    EXPECT_EQ(
+        moving.warnings[1],
+        "the volume is largest in 3 frames, of which frame 1 is the first; the volume is smallest in 6 frames, of which "
+        "frame 7 is the first");
 }
 
 TEST(SegmentMoving, AFrameBeyondTheImageIsRefused) {

@@ -31,15 +31,17 @@ TEST(VolumeCurve, TheFirstOfSeveralExtremesIsNamedAndTheTieSaid) {
     const VolumeCurve curve = volume_curve({5, 9, 3, 9, 3, 3});
     EXPECT_EQ(curve.largest, 1);
     EXPECT_EQ(curve.smallest, 2);
-    EXPECT_EQ(note_of_ties(curve),
-              "the volume is largest in 2 frames, of which frame 2 is the first; the volume is smallest in 3 frames, of which "
-              "frame 3 is the first");
+    EXPECT_EQ(
+        note_of_ties(curve),
+        "the volume is largest in 2 frames, of which frame 2 is the first; the volume is smallest in 3 frames, of which "
+        "frame 3 is the first");
     EXPECT_EQ(note_of_ties(volume_curve({5, 9, 3})), "");
     EXPECT_DOUBLE_EQ(curve.ejection_fraction(), 1 - 3.0 / 9);
 }
 
 TEST(VolumeCurve, AtAMomentTheIntervalIsThatOfItsSurface) {
-    const std::vector<VolumeInterval> all = volume_intervals(course(), {kSure, kSure}, std::vector<double>{1, 6}, {1000, 216});
+    const std::vector<VolumeInterval> all =
+        volume_intervals(course(), {kSure, kSure}, std::vector<double>{1, 6}, {1000, 216});
     ASSERT_EQ(all.size(), 2);
     EXPECT_DOUBLE_EQ(all[0].low_ml, 900);
     EXPECT_DOUBLE_EQ(all[0].high_ml, 1200);

@@ -33,12 +33,14 @@ TEST(WholeMotion, IsTheMotionBetweenWholeMoments) {
 
 TEST(WholeMotion, WithoutAnyWeightWhatWasThereStays) {
     EXPECT_EQ(value({0, 0, 0, 0}, 3), kRest);
-    EXPECT_DOUBLE_EQ(value({0, 0.25, 0, 0}, 3), 0.75 * kRest + 0.25 * test::ball_function({0, 0, 0}, kRadii[1]).value(kPlace));
+    EXPECT_DOUBLE_EQ(value({0, 0.25, 0, 0}, 3),
+                     0.75 * kRest + 0.25 * test::ball_function({0, 0, 0}, kRadii[1]).value(kPlace));
 }
 
 TEST(WholeMotion, ChangesWithEachWeightWithoutAStep) {
     constexpr double kLittle = 1e-6;
-    for (const std::vector<double>& others : {std::vector<double>{1, 0, 1, 0}, {1, 0, 0.4, 0.4}, {0, 0, 0.3, 0}, {0.5, 0, 1, 0.2}})
+    for (const std::vector<double>& others :
+         {std::vector<double>{1, 0, 1, 0}, {1, 0, 0.4, 0.4}, {0, 0, 0.3, 0}, {0.5, 0, 1, 0.2}})
         for (const double weight : {0.0, 0.2, 0.3, 0.4, 0.5, 1 - kLittle})
             for (const double time : {1.0, 3.2, 4.0, 8.9, 12.5}) {
                 std::vector<double> before = others, after = others;

@@ -15,7 +15,8 @@ FittedMotion::FittedMotion(const State& state, Id structure, const FramesToSegme
       frames_(static_cast<std::size_t>(times)) {
     std::iota(frames_.begin(), frames_.end(), 1);
     try {
-        MovingFit fit = MovingFitter(frames, {.smoothing = structure_.smoothing, .drawn_on = frames.grid}).fit(set_, frames_, work);
+        MovingFit fit =
+            MovingFitter(frames, {.smoothing = structure_.smoothing, .drawn_on = frames.grid}).fit(set_, frames_, work);
         masks_.emplace(fit.mask_course(work));
         meshes_.emplace(fit.mesh_course(work));
         moments_ = std::move(fit.moments);

@@ -242,8 +242,8 @@ void Motions::fit(Id structure, const StopToken& stop) {
     }
     const Work work{.stop = stop};
     const MovingFit fitted = fitter->fit(task->set, all_frames(task->times), work);
-    const auto meshes =
-        std::make_shared<const MeshCourse>(fitted.function, fitted.starts(), kSpacingFraction * diameter_mm(task->set), work);
+    const auto meshes = std::make_shared<const MeshCourse>(fitted.function, fitted.starts(),
+                                                           kSpacingFraction * diameter_mm(task->set), work);
     const auto mask_course = std::make_shared<const MaskCourse>(fitted.mask_course(work));
     show(structure, stop, [&](Made& made, Motion& motion) {
         made.meshes = meshes;

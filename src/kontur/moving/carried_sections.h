@@ -13,9 +13,9 @@
 namespace kontur {
 
 /// A moment at which so much of the planes drawn at any moment was drawn stands for itself: what was left out there may not
-/// have been there to be drawn. Below the first it does not at all, in between as far as it lies between. Of four bodies with
-/// two whole moments, contours added to a third one by one change no frame by more than .012 of Dice; with a step at 2/3
-/// .0128. A whole fraction of 3/4 makes that .0099, but .9538 of 3 slices in each of 5 frames (bench/moving.py) .9520.
+/// have been there to be drawn. Below the first it does not at all, in between as far as it lies between. Of four bodies
+/// with two whole moments, contours added to a third one by one change no frame by more than .012 of Dice; with a step at
+/// 2/3 .0128. A whole fraction of 3/4 makes that .0099, but .9538 of 3 slices in each of 5 frames (bench/moving.py) .9520.
 inline constexpr double kLeastFraction = 1.0 / 2, kWholeFraction = 2.0 / 3;
 
 /// What was drawn at each moment of a moving object, and in which planes others were drawn.
@@ -29,8 +29,8 @@ DrawnMoments drawn_moments(const ContourSet& set, const Moments& moments);
 
 /// Sections of the object at moments of a weight below 1, in the planes that were drawn at others: where a process in space
 /// and time through all contours vanishes there. `whole` is the motion between the moments by their weights; the process is
-/// what contours leave of it. How fast time runs beside space is what foretells best the contours of these moments, each left
-/// out in turn. For each moment its contours; none at whole ones. The same bytes for any number of threads.
+/// what contours leave of it. How fast time runs beside space is what foretells best the contours of these moments, each
+/// left out in turn. For each moment its contours; none at whole ones. The same bytes for any number of threads.
 std::vector<std::vector<Contour>> carried_sections(const ContourSet& set, const DrawnMoments& drawn,
                                                    const WholeMotion& whole, FillRule fill_rule, const Work& work = {});
 

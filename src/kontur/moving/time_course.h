@@ -29,7 +29,9 @@ public:
     };
     Place place_of(double time) const;
     /// How far it lies from the moment before to that after, 0 to 1.
-    double part_of(const Place& place) const { return place.before == place.after ? 0 : place.since / lengths_[place.before]; }
+    double part_of(const Place& place) const {
+        return place.before == place.after ? 0 : place.since / lengths_[place.before];
+    }
 
     /// How long the interval around it is, of the cycle, or of twice as long as the moments span.
     double share_of_cycle(const Place& place) const {

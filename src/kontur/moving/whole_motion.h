@@ -11,8 +11,8 @@
 
 namespace kontur {
 
-/// The motion between moments that stand for themselves, each by a weight from 0 to 1: the mean, over all levels from 0 to 1,
-/// of the motions between the moments whose weight reaches the level. So it changes with each weight without a step, that
+/// The motion between moments that stand for themselves, each by a weight from 0 to 1: the mean, over all levels from 0 to
+/// 1, of the motions between the moments whose weight reaches the level. So it changes with each weight without a step, that
 /// of a moment that comes in and that of one that becomes whole. Cheap to copy, safe to read from any thread.
 class WholeMotion {
 public:

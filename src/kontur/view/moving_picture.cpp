@@ -27,7 +27,8 @@ public:
 
     Rect cell(std::size_t row, int column) const {
         const double width = std::floor(0.33 * inner_.width),
-                     height = std::floor((inner_.height - static_cast<double>(rows_ - 1) * gap_) / static_cast<double>(rows_));
+                     height =
+                         std::floor((inner_.height - static_cast<double>(rows_ - 1) * gap_) / static_cast<double>(rows_));
         return {inner_.x + column * (width + gap_), inner_.y + static_cast<double>(row) * (height + gap_), width, height};
     }
     Rect curve() const {

@@ -43,8 +43,8 @@ struct MovingPictureContent {
     Window window{};  ///< of the slices
 };
 
-/// One picture of an object that moves: for each of the moments its surface and a slice of the image with its outline, at the
-/// same place and scale; the volume's curve with its interval, and figures where there are two moments. Same input, same
+/// One picture of an object that moves: for each of the moments its surface and a slice of the image with its outline, at
+/// the same place and scale; the volume's curve with its interval, and figures where there are two moments. Same input, same
 /// bytes. Throws as `make_picture` does, and Error(invalid_input) without a moment or a value of the curve.
 RgbImage make_moving_picture(const MovingPictureContent& content, const PictureOptions& options = {}, const Work& work = {});
 

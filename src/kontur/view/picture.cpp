@@ -38,10 +38,7 @@ Layout lay_out(int width, int height) {
     const auto cell = [&](int column, int row) {
         return Rect{right + column * (cell_width + gap), top + row * (cell_height + gap), cell_width, cell_height};
     };
-    return {unit,
-            {margin, top, left_width, 2 * cell_height + gap},
-            {cell(0, 0), cell(0, 1), cell(1, 1)},
-            cell(1, 0)};
+    return {unit, {margin, top, left_width, 2 * cell_height + gap}, {cell(0, 0), cell(0, 1), cell(1, 1)}, cell(1, 0)};
 }
 
 /// One scale for all slices: the largest extent in any of them leaves a margin for the surroundings.
@@ -190,7 +187,8 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
     canvas.fill(all, kGround);
 
     const std::string& name = options.title.empty() ? contours.name : options.title;
-    picture::draw_frame_texts(canvas, {all, layout.unit}, name.empty() ? "segmentation" : name, subtitle(mesh, contours, options.has_surface));
+    picture::draw_frame_texts(canvas, {all, layout.unit}, name.empty() ? "segmentation" : name,
+                              subtitle(mesh, contours, options.has_surface));
     picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, {mesh, contours}, work);
     if (options.has_surface && mesh.triangles.empty())
         canvas.text(layout.surface.center(), "empty: there is no surface",

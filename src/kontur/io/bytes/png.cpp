@@ -102,7 +102,8 @@ public:
         std::string content = big_endian(number_++);
         for (const int size : {region.width, region.height, region.x, region.y})
             content += big_endian(static_cast<std::uint32_t>(size));
-        return chunk("fcTL", content + big_endian(milliseconds_).substr(2) + big_endian(1000).substr(2) + std::string(2, '\0'));
+        return chunk("fcTL",
+                     content + big_endian(milliseconds_).substr(2) + big_endian(1000).substr(2) + std::string(2, '\0'));
     }
 
     /// The pixels of a picture by itself, as those of a frame.
@@ -111,7 +112,8 @@ public:
         for (std::size_t at = 8; at + 8 <= png.size();) {
             std::size_t size = 0;
             for (std::size_t n = 0; n < 4; ++n) size = size << 8 | static_cast<unsigned char>(png[at + n]);
-            if (png.compare(at + 4, 4, "IDAT") == 0) chunks += chunk("fdAT", big_endian(number_++) + png.substr(at + 8, size));
+            if (png.compare(at + 4, 4, "IDAT") == 0)
+                chunks += chunk("fdAT", big_endian(number_++) + png.substr(at + 8, size));
             at += size + 12;
         }
         return chunks;
@@ -124,7 +126,8 @@ private:
 void check_animation(std::span<const RgbImage> pictures, double seconds) {
     if (pictures.empty()) throw Error(ErrorKind::invalid_input, "there is no picture; at least 1 is needed");
     if (!(seconds > 0 && seconds <= 60))
-        throw Error(ErrorKind::invalid_input, fmt::format("each picture is seen for {:g} s; above 0 and at most 60 are possible", seconds));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("each picture is seen for {:g} s; above 0 and at most 60 are possible", seconds));
     for (const RgbImage& picture : pictures) {
         check_picture(picture);
         if (picture.width != pictures.front().width || picture.height != pictures.front().height)

@@ -90,7 +90,7 @@ struct DicomAlgorithm {
 
 struct WriteDicomSegOptions {
     std::string series_description = "kontur segmentation";  ///< this default is followed by date and names
-    std::int64_t series_number = 0;                         ///< 0: the time of day, hhmmss
+    std::int64_t series_number = 0;                          ///< 0: the time of day, hhmmss
     DicomAlgorithm algorithm{};
     Provenance provenance{};  ///< how the file was made: the description of kontur's contribution (equipment)
 };

@@ -439,7 +439,8 @@ std::vector<std::string> write_dicom_seg_over_time(const std::filesystem::path& 
     const auto& [masks, segment, volumes] = content;
     dcmtk::set_up();
     if (masks.empty() || masks.size() != volumes.size())
-        throw invalid(fmt::format("there are {} masks for {} volumes in time; each needs one", masks.size(), volumes.size()));
+        throw invalid(
+            fmt::format("there are {} masks for {} volumes in time; each needs one", masks.size(), volumes.size()));
     std::vector<std::vector<DicomHeader>> times;
     for (const DicomSeries& volume : volumes) {
         times.push_back(read_slice_headers(volume));

@@ -139,7 +139,7 @@ describe("Cornerstone3D", () => {
 
   test("surfaces follow their contours: one update at a time, of what is drawn to its end", async () => {
     const annotations = [-6, 0, 6].map((z) => annotation(circle(z, 10)));
-    annotations.push({ data: { contour: { polyline: [[0, 0, 3]], closed: false } } });
+    for (const segment of [1, 2]) annotations.push({ data: { contour: { polyline: [[0, 0, 3]], closed: false } }, segment });
     const cs = cornerstone(annotations);
     const surface = { data: { points: [], polys: [], segmentIndex: 1 } };
     let told = 0;
@@ -154,7 +154,10 @@ describe("Cornerstone3D", () => {
     const { mesh } = kontur.segment({ contours: contoursOf(annotations.slice(0, 3)) });
     assert.deepEqual(surface.data.points, mesh.points);
     assert.deepEqual(Array.from(surface.data.polys.slice(0, 4)), [3, ...mesh.triangles.slice(0, 3)]);
-    cs.segmentation.representationData.Contour.annotationUIDsMap.get(1).clear();
+    Object.assign(annotations[4].data.contour, { polyline: circle(3, 5), closed: true });
+    await polySeg.updateSurfaceData("s");
+    assert.deepEqual([...cs.segmentation.representationData.Surface.geometryIds.keys()], [1, 2]);
+    for (const drawn of cs.segmentation.representationData.Contour.annotationUIDsMap.values()) drawn.clear();
     await polySeg.updateSurfaceData("s");
     assert.deepEqual([surface.data.points, surface.data.polys], [[], []]);
   });

@@ -54,7 +54,7 @@ export async function fillFromContours(
   const grid = volumeGrid(volume);
   const labels = new Uint8Array(grid.size[0] * grid.size[1] * grid.size[2]);
   const voxels = new Map<number, number>();
-  for (const index of segmentIndices ?? segmentsOf(segmentation)) {
+  for (const index of segmentIndices ?? segmentsOf(cs, segmentation)) {
     const contours = contoursOf(annotationsOf(cs, segmentation, index));
     const { mask } = await segmented(kontur, { contours, grid, options: { mesh: false } });
     let count = 0;
@@ -117,9 +117,9 @@ export function segmentationOf(cs: Cornerstone, segmentationId: string): Segment
 }
 
 /** Those that have contours, in increasing order. */
-export function segmentsOf(segmentation: Segmentation): number[] {
-  const drawn = segmentation.representationData.Contour?.annotationUIDsMap ?? new Map<number, Set<string>>();
-  return [...drawn.keys()].filter((index) => drawn.get(index)!.size > 0).sort((one, other) => one - other);
+export function segmentsOf(cs: Cornerstone, segmentation: Segmentation): number[] {
+  const known = segmentation.representationData.Contour?.annotationUIDsMap ?? new Map<number, Set<string>>();
+  return [...known.keys()].filter((index) => annotationsOf(cs, segmentation, index).length > 0).sort((one, other) => one - other);
 }
 
 function volumeOf(cs: Cornerstone, volumeId: string): ImageVolume {

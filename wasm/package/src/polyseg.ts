@@ -115,7 +115,7 @@ const indicesOf = ({ segmentIndices }: Asked) => (segmentIndices?.length ? segme
 async function surfacesOf(cs: Cornerstone, kontur: Engine, id: string, asked: Asked): Promise<{ geometryIds: Map<number, string> }> {
   const segmentation = segmentationOf(cs, id);
   const geometryIds = new Map<number, string>();
-  for (const segmentIndex of indicesOf(asked) ?? segmentsOf(segmentation)) {
+  for (const segmentIndex of indicesOf(asked) ?? segmentsOf(cs, segmentation)) {
     const { mesh } = await segmented(kontur, { contours: contoursOf(annotationsOf(cs, segmentation, segmentIndex)) });
     const geometryId = `segmentation_${id}_surface_${segmentIndex}`;
     const data = { points: mesh!.points, polys: polysOf(mesh!) };
@@ -134,8 +134,10 @@ async function surfacesOf(cs: Cornerstone, kontur: Engine, id: string, asked: As
       });
     geometryIds.set(segmentIndex, geometryId);
   }
-  for (const [segmentIndex, geometryId] of segmentation.representationData.Surface?.geometryIds ?? [])
+  const shown = segmentation.representationData.Surface?.geometryIds ?? new Map<number, string>();
+  for (const [segmentIndex, geometryId] of shown)
     if (!indicesOf(asked) && !geometryIds.has(segmentIndex)) Object.assign(cs.core.cache.getGeometry(geometryId)?.data ?? {}, { points: [], polys: [] });
+  for (const [segmentIndex, geometryId] of geometryIds) shown.set(segmentIndex, geometryId);
   return { geometryIds };
 }
 

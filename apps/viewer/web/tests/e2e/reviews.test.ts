@@ -14,7 +14,7 @@ const picture = async (name: string) => {
 };
 
 const row = (name: string) => viewer.page.locator(".structure", { has: viewer.page.locator("button.name", { hasText: name }) });
-const notice = (text: string) => viewer.page.locator(".notice", { hasText: text }).waitFor();
+const notice = (text: string) => viewer.page.locator(".notice", { hasText: text }).first().waitFor();
 const flag = (name: string, which: "locked" | "approved") => row(name).locator(`[data-test=is-${which}]`);
 
 async function approve(name: string): Promise<void> {

@@ -43,7 +43,7 @@ export function reviewRows(structure: Structure, services: ReviewServices): Piec
     click: () => call("structure.review", { id, locked: !locked }),
   });
   const approve = buttonPiece({
-    label: approved ? "Take back" : "Approve",
+    label: approved ? "Revoke" : "Approve",
     title: approved ? `Take the approval by ${words(approved)} back` : `Say that ${name} is right as it is`,
     class: "choice",
     test: "approve",

@@ -76,7 +76,7 @@ export class RuleMenu {
 
   private select(part: "of" | "crop" | "spare", label: string, names: readonly string[]): Piece {
     const options = names.map((name) =>
-      piece("option", { key: name, value: name, selected: name === this.choice[part] }, name === "" ? "nothing" : name === BODY ? "the body" : name),
+      piece("option", { key: name, value: name, selected: name === this.choice[part] }, name === "" ? "nothing" : name === BODY ? "body" : name),
     );
     return piece(
       "select",

@@ -192,6 +192,21 @@ def test_what_segment_makes_says_the_same_and_that_kontur_made_it(tmp_path, imag
     assert said_in(tmp_path / "again.json") == {"color": SAID["color"]}
 
 
+def test_convert_keeps_an_approval_and_a_new_fit_has_none(tmp_path, images):
+    contours = write_planes(tmp_path / "ball.json", [circle("z", offset, center=CENTER, radius=RADIUS) for offset in (-2.5, 0, 2.5)])
+    review = {"approved": {"by": "Doe^Jane", "at": "2026-11-30T21:02:43"}, "comment": "to the rim", "locked": True}
+    pathlib.Path(contours).write_text(json.dumps({**json.loads(pathlib.Path(contours).read_text()), "review": review}))
+    assert (made := kontur("convert", contours, tmp_path / "rs.dcm", "--image", images)).returncode == 0, made
+    lines, _ = checked(tmp_path / "rs.dcm", images)
+    assert lines[0] == ["APPROVED", "by", "Doe^Jane", "on", "20261130", "at", "210243"]
+    [[roi]] = [one["rois"] for one in json.loads(kontur("inspect", tmp_path / "rs.dcm", "--json").stdout)]
+    assert (roi["approved"], roi["comment"]) == (review["approved"], review["comment"])
+    assert (made := kontur("convert", tmp_path / "rs.dcm", tmp_path / "back.json")).returncode == 0, made
+    assert json.loads((tmp_path / "back.json").read_text())["review"] == {key: review[key] for key in ("approved", "comment")}
+    assert (made := kontur("segment", contours, "--image", images, "--output", tmp_path / "m.nii.gz", "--rtstruct", tmp_path / "fit.dcm")).returncode == 0, made
+    assert pydicom.dcmread(tmp_path / "fit.dcm").ApprovalStatus == "UNAPPROVED"
+
+
 def test_a_real_structure_set_keeps_what_it_says(tmp_path):
     folder = real_data("09_rtstruct_breast_dicompyler")
     before = pydicom.dcmread(folder / "rtss.dcm")

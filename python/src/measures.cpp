@@ -10,7 +10,7 @@ namespace {
 void bind_differences(py::module_& m) {
     py::class_<Difference> difference(m, "Difference", "Where one of two masks is, and the other is not.");
     Fields(difference)
-        .field("at", &Difference::at, "array (3,): the voxel that lies farthest from the other mask, mm (LPS).")
+        .field("at", &Difference::at, "ndarray, shape (3,): mm, the voxel that lies farthest from the other mask.")
         .field("distance_mm", &Difference::distance_mm, "float: of that voxel from the other mask's nearest one.")
         .field("volume_ml", &Difference::volume_ml, "float")
         .field("in_first", &Difference::in_first, "bool: it is the first mask that has it.")

@@ -12,7 +12,7 @@ namespace kontur {
 namespace {
 
 // Behind each: how many of the true volumes lie within, between whole moments and where something was carried, of 24 made-up
-// bodies with seven drawings each (bench/moving_intervals.py); these make .906 and .939.
+// bodies with seven drawings each, where these make .906 and .939; of 24 others .883 and .910 (bench/moving_intervals.py).
 constexpr double kOfDifference = 0.3;  // of what differs between two moments, half of the way. .15 .846, .921; .6 .951, .946
 constexpr double kOfTime = 0.2;        // of the volume, half of the way round a cycle. .1 .841, .923; .4 .962, .949
 constexpr double kOfCarried = 0.13;    // of what differs between any, if all was carried. .065 .906, .844; .26 .906, .986

@@ -275,6 +275,14 @@ def test_another_frame_of_reference_than_the_images_is_told(tmp_path, images):
                 assert result.returncode == 0, result
                 told = f"lies in the frame of reference 1.2.3.4, the images in {own}; it may not fit them\n" in result.stderr
                 assert told == (uid != own), (words, result)
+    file = pydicom.dcmread(tmp_path / "rs.dcm")
+    file.FrameOfReferenceUID = own
+    for roi in file.StructureSetROISequence:
+        roi.ReferencedFrameOfReferenceUID = own
+    file.save_as(tmp_path / "own.dcm")
+    result = kontur("segment", "rs.dcm", "own.dcm", "--image", images, "--output", "m.nii.gz", cwd=tmp_path)
+    assert result.returncode == 65, result
+    assert f"own.dcm: its contours lie in the frame of reference {own}, those before in 1.2.3.4; " in result.stderr
 
 
 @pytest.mark.parametrize(

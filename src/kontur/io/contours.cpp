@@ -147,6 +147,11 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
         if (all.contours.name.empty()) all.contours.name = one.contours.name;
         if (all.contours.attributes == StructureAttributes{}) all.contours.attributes = one.contours.attributes;
         if (all.frame_of_reference_uid.empty()) all.frame_of_reference_uid = one.frame_of_reference_uid;
+        if (!one.frame_of_reference_uid.empty() && one.frame_of_reference_uid != all.frame_of_reference_uid)
+            throw Error(ErrorKind::invalid_input,
+                        path.string() + ": its contours lie in the frame of reference " + one.frame_of_reference_uid +
+                            ", those before in " + all.frame_of_reference_uid +
+                            "; contours of one object have to share one, so register the images first");
         if (!all.contours.cycle_frames) all.contours.cycle_frames = one.contours.cycle_frames;
         if (!all.contours.cycle_s) all.contours.cycle_s = one.contours.cycle_s;
         append(all.contours.contours, one.contours.contours);

@@ -132,6 +132,9 @@ TEST(MovingSession, VolumesAndFilesAreThoseOfTheLibrary) {
     EXPECT_EQ(motion["curve"]["largest"], made.volumes.largest);
     EXPECT_EQ(motion["curve"]["ejection_fraction"].get<double>(), made.volumes.ejection_fraction());
     EXPECT_GT(made.volumes.ejection_fraction(), 0.5);
+    ASSERT_EQ(motion["curve"]["intervals_ml"].size(), kTimes);
+    EXPECT_EQ(motion["curve"]["intervals_ml"][3][1].get<double>(), made.volumes.intervals[3].high_ml);
+    EXPECT_EQ(motion["curve"]["ejection_interval"][0].get<double>(), made.volumes.ejection_interval()->low);
     const Download all = here.session->exported("masks.nii.gz", id);
     for (int time = 0; time < kTimes; ++time) {
         EXPECT_EQ(here.mask_in(all, time + 1).values, made.masks[time].values) << time;

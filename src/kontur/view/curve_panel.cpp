@@ -62,7 +62,7 @@ private:
         const std::size_t frames = curve_.values_ml.size();
         const auto every = static_cast<std::size_t>(std::max(1.0, round_length(static_cast<double>(frames) / 6.0)));
         for (std::size_t frame = 1; frame <= frames; ++frame)
-            if (frame == 1 || frame % every == 0)
+            if (frame == 1 || (frame > every && frame % every == 0))
                 canvas_.text({at(frame - 1, 0).x, axes_.bottom() + 18 * unit_}, fmt::format("{}", frame),
                              {.size_px = 13 * unit_, .color = kMuted, .align = Align::center});
         canvas_.text({axes_.right(), axes_.bottom() + 36 * unit_}, "frame",

@@ -205,6 +205,21 @@ def test_volumes_of_a_dicom_series_are_frames_and_its_tags_tell_the_cycle(tmp_pa
     assert "--volume 2 chooses one volume" in refusal(unsaid, "--image", beats, "--volume", 2, "--output", tmp_path / "no.nii.gz")
 
 
+@pytest.mark.parametrize("kinds", ["domain domain domain list", "list domain domain domain"])
+def test_frames_may_be_a_list_of_nrrd(tmp_path, cine, contours, kinds):
+    is_first = kinds.startswith("list")
+    sizes, steps = ["25"] * 3, ["(1.5,0,0)", "(0,1.5,0)", "(0,0,1.5)"]
+    sizes.insert(0 if is_first else 3, str(FRAMES))
+    steps.insert(0 if is_first else 3, "none")
+    header = (f"NRRD0004\ntype: short\ndimension: 4\nspace: left-posterior-superior\nsizes: {' '.join(sizes)}\nendian: little\n"
+              f"space directions: {' '.join(steps)}\nkinds: {kinds}\nencoding: raw\nspace origin: (-18,-18,-18)\n\n")
+    (tmp_path / "cine.nrrd").write_bytes(header.encode() + bytes(2 * FRAMES * 25**3))
+    succeed("segment", contours, "--image", cine, "--output", tmp_path / "nifti.nii.gz")
+    succeed("segment", contours, "--image", tmp_path / "cine.nrrd", "--output", tmp_path / "nrrd.nii.gz")
+    one, other = (numpy.asarray(nibabel.load(tmp_path / f"{name}.nii.gz").dataobj) for name in ("nifti", "nrrd"))
+    assert numpy.array_equal(one, other) and one.any()
+
+
 def test_trace_and_convert_say_which_frame_contours_are_of(tmp_path, cine, contours):
     succeed("segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz")
     for frame in (1, 5):

@@ -100,9 +100,11 @@ export class FolderView {
     this.request.abort();
     this.request = new AbortController();
     const { signal } = this.request;
+    const typed = this.path.value;
     try {
       const folder = await this.http.folder(path, signal);
       this.show(folder);
+      if (this.path.value === typed) this.path.value = folder.path; // else someone types
       await this.showVolumes(folder, signal);
     } catch (error) {
       if (signal.aborted) return;
@@ -114,7 +116,6 @@ export class FolderView {
   private show(folder: Folder): void {
     this.services.problem("");
     this.shown = folder;
-    this.path.value = folder.path;
     this.filter.value = "";
     this.up.disabled = folder.parent === null;
     this.fill();

@@ -105,6 +105,27 @@ describe("the start page", () => {
     await viewer.page.close();
   });
 
+  test("a folder that comes late leaves what someone is typing", async () => {
+    const viewer = await visit();
+    const { page } = viewer;
+    await goHome(viewer);
+    let arrive = () => {};
+    const late = new Promise<void>((resolve) => (arrive = resolve));
+    await page.route("**/api/folder?*", async (route) => {
+      await late;
+      await route.continue();
+    });
+    await page.click("[data-test=place]:has-text('Home')");
+    const reply = page.waitForResponse("**/api/folder?*");
+    await viewer.type(page.locator("[data-test=path]"), "~/scans/ba");
+    arrive();
+    await reply;
+    await page.keyboard.type("ll.nii");
+    await page.keyboard.press("Enter");
+    await viewer.ready();
+    await page.close();
+  });
+
   test("opens an image, and back there finds it among the recent ones, with what was drawn", async () => {
     const viewer = await visit();
     await goHome(viewer);

@@ -33,9 +33,11 @@ void check(const DeriveCommand& command, const std::vector<std::string>& rules) 
     for (const fs::path& path : {command.image.path, command.rules_file})
         if (!path.empty()) inputs.push_back(path);
     check_outputs(std::array{command.output, command.rtstruct, command.table}, inputs);
-    if (!command.output.empty() && !has_extension(command.output, ".json")) check_output_kind(command.output, FileKind::image);
+    if (!command.output.empty() && !has_extension(command.output, ".json"))
+        check_output_kind(command.output, FileKind::image);
     if (!command.rtstruct.empty() && !is_dicom_name(command.rtstruct))
-        throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .dcm, as an RTSTRUCT does", command.rtstruct.string()));
+        throw Error(ErrorKind::unsupported,
+                    fmt::format("{} does not end with .dcm, as an RTSTRUCT does", command.rtstruct.string()));
     if (!command.table.empty() && !has_extension(command.table, ".csv"))
         throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .csv", command.table.string()));
     for (const fs::path& output : {command.output, command.rtstruct}) check_dicom_images(output, command.image.path);
@@ -43,7 +45,8 @@ void check(const DeriveCommand& command, const std::vector<std::string>& rules) 
     check_series(command.series, std::array{command.output, command.rtstruct});
     check_types(command.types);
     if (has_extension(command.output, ".json") && (rules.size() > 1 || command.with_sources))
-        refuse(fmt::format("{} has room for 1 structure; write several to a label map, a SEG or an RTSTRUCT", command.output.string()));
+        refuse(fmt::format("{} has room for 1 structure; write several to a label map, a SEG or an RTSTRUCT",
+                           command.output.string()));
 }
 
 std::vector<std::string> all_rules(const DeriveCommand& command) {
@@ -60,7 +63,8 @@ Provenance provenance_of(const DeriveCommand& command, const std::vector<std::st
         inputs.emplace_back(command.inputs.size() == 1 ? "input" : fmt::format("input_{}", n + 1), command.inputs[n]);
     inputs.emplace_back("image", command.image.path);
     Provenance made = made_by("derive", inputs, fmt::format("use_image={}", name(command.segment.use_image)), work);
-    for (std::size_t n = 0; n < rules.size(); ++n) made.emplace_back(fmt::format("rule_{}", n + 1), printable_utf8(rules[n]));
+    for (std::size_t n = 0; n < rules.size(); ++n)
+        made.emplace_back(fmt::format("rule_{}", n + 1), printable_utf8(rules[n]));
     return made;
 }
 
@@ -70,7 +74,8 @@ double volume_ml(const Mask& mask) {
 }
 
 /// Of all structures, sources first.
-std::vector<StructureRelation> relations_of(DeriveSources sources, const std::vector<DerivedStructure>& made, const Work& work) {
+std::vector<StructureRelation> relations_of(DeriveSources sources, const std::vector<DerivedStructure>& made,
+                                            const Work& work) {
     for (const DerivedStructure& one : made) sources.structures.push_back({one.name, one.mask, {}});
     return relations(sources.structures, work);
 }
@@ -82,7 +87,8 @@ void run(const DeriveCommand& command, Console& console) {
     check(command, rules);
     const Work work = console.work(command.threads);
     const DeriveSources sources = read_derive_sources(command, rules, console, work);
-    std::vector<DerivedStructure> made = derive(rules, sources.structures, {.image = sources.image ? &*sources.image : nullptr}, work);
+    std::vector<DerivedStructure> made =
+        derive(rules, sources.structures, {.image = sources.image ? &*sources.image : nullptr}, work);
     std::string text;
     for (const DerivedStructure& one : made) {
         text += fmt::format("{}: {}\n", one.name, in_ml(volume_ml(one.mask)));

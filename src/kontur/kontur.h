@@ -42,7 +42,6 @@
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
 #include "kontur/segment_together.h"
-#include "kontur/volume_curve.h"
 
 // Structures that follow others by rules.
 #include "kontur/derive/derive.h"

@@ -12,6 +12,7 @@
 #include "kontur/base/smallest_ball.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/moving/carried_sections.h"
+#include "kontur/moving/mesh_course.h"
 #include "kontur/moving/moments.h"
 #include "kontur/shape/provenance.h"
 

@@ -12,12 +12,13 @@
 
 #include "kontur/base/work.h"
 #include "kontur/moving/mask_course.h"
-#include "kontur/moving/mesh_course.h"
 #include "kontur/moving/moving_function.h"
 #include "kontur/segment.h"
 #include "kontur/volume_curve.h"
 
 namespace kontur {
+
+class MeshCourse;
 
 /// The function of space and time that contours of several moments make.
 struct MovingFit {

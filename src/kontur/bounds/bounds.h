@@ -31,8 +31,9 @@ struct Bounds {
 /// What planes say of the object beside the lines. There are five sources: a drawn plane, which shows where the object is
 /// and is not (plane_bounds.h), a plane in which nothing of it is seen (empty_planes.h), the wall below an end that lies
 /// close to such a plane (wall_bounds.h), the end of the object beyond a plane after which nothing leads on (end_bounds.h),
-/// and the way of a tube between its rings (between_bounds.h). All follow continuously when planes are moved and turned, and move, turn and scale with the contours. What the user declares
-/// (ends.h, clicks.h) and what holds of any drawing (far_bounds.h) are added as it is prepared.
+/// and the way of a tube between its rings (between_bounds.h). All follow continuously when planes are moved and turned, and
+/// move, turn and scale with the contours. What the user declares (ends.h, clicks.h) and what holds of any drawing
+/// (far_bounds.h) are added as it is prepared.
 Bounds find_bounds(const DrawnPlanes& planes, const Work& work = {});
 
 }  // namespace kontur

@@ -120,10 +120,10 @@ void read_roi_contours_or_damage(Roi& roi, const std::vector<DcmItem*>& items) {
 /// Adds nothing without numbers.
 void note_unlisted(StructureSet& set, std::string_view what, const std::set<std::int64_t>& numbers) {
     if (numbers.empty()) return;
-    set.notes.push_back(numbers.size() == 1
-                            ? fmt::format("left out {} of ROI {}, which is not listed", what, *numbers.begin())
-                            : fmt::format("left out {} of {} ROIs that are not listed: {}", what, numbers.size(),
-                                          fmt::join(numbers, ", ")));
+    set.notes.push_back(
+        numbers.size() == 1
+            ? fmt::format("left out {} of ROI {}, which is not listed", what, *numbers.begin())
+            : fmt::format("left out {} of {} ROIs that are not listed: {}", what, numbers.size(), fmt::join(numbers, ", ")));
 }
 
 void read_all_contours(StructureSet& set, DcmItem& dataset) {

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "kontur/measure/compare.h"
 #include "support/expect_error.h"
+#include "support/mask_of.h"
 
 namespace kontur {
 namespace {
@@ -20,15 +20,6 @@ Grid grid_of(const Index3& size, const Vec3& a, const Vec3& b, const Vec3& c) {
     grid.index_to_mm.set_column(1, b);
     grid.index_to_mm.set_column(2, c);
     return grid;
-}
-
-Mask mask_where(const Grid& grid, const std::function<bool(const Vec3&)>& inside) {
-    Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
-    for (std::int64_t k = 0; k < grid.size.k; ++k)
-        for (std::int64_t j = 0; j < grid.size.j; ++j)
-            for (std::int64_t i = 0; i < grid.size.i; ++i)
-                mask.values[grid.offset(i, j, k)] = inside(grid.center_mm(i, j, k));
-    return mask;
 }
 
 bool in_ball(const Vec3& p, const Vec3& center, double radius) { return distance(p, center) <= radius; }
@@ -54,8 +45,8 @@ double distance_to(const Vec3& p, const Mask& mask) {
 TEST(Differences, NameBulgesOnALayerThatIsEverywhere) {
     const Grid grid = grid_of({60, 60, 60}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
     const Vec3 center{30, 30, 30}, right{50, 30, 30}, up{30, 30, 48};
-    const Mask b = mask_where(grid, [&](const Vec3& p) { return in_ball(p, center, 16); });
-    const Mask a = mask_where(grid, [&](const Vec3& p) {
+    const Mask b = test::mask_of(grid, [&](const Vec3& p) { return in_ball(p, center, 16); });
+    const Mask a = test::mask_of(grid, [&](const Vec3& p) {
         return in_ball(p, center, 17) || in_ball(p, right, 4) || in_ball(p, up, 4);  // 8 mm and 6 mm high, one layer between
     });
     const std::vector<Difference> found = differences(a, b);
@@ -75,8 +66,8 @@ TEST(Differences, NameBulgesOnALayerThatIsEverywhere) {
 
 TEST(Differences, AShiftedBallHasOneOnEachSide) {
     const Grid grid = grid_of({50, 50, 20}, {1, 0, 0}, {0, 1, 0}, {0, 0, 2.5});
-    const Mask a = mask_where(grid, [](const Vec3& p) { return in_ball(p, {24, 25, 25}, 15); });
-    const Mask b = mask_where(grid, [](const Vec3& p) { return in_ball(p, {28, 25, 25}, 15); });
+    const Mask a = test::mask_of(grid, [](const Vec3& p) { return in_ball(p, {24, 25, 25}, 15); });
+    const Mask b = test::mask_of(grid, [](const Vec3& p) { return in_ball(p, {28, 25, 25}, 15); });
     const std::vector<Difference> found = differences(a, b);
     ASSERT_GE(found.size(), 2u);
     for (std::size_t n = 2; n < found.size(); ++n)
@@ -93,7 +84,7 @@ TEST(Differences, AreAllVoxelsAndTheirDistancesAreExact) {
         for (int round = 0; round < 10; ++round) {
             const Vec3 at{0.4 * round, 0.2 * round - 2, 12.0};
             const auto wavy = [&](double amount) {
-                return mask_where(grid, [&, amount](const Vec3& p) {
+                return test::mask_of(grid, [&, amount](const Vec3& p) {
                     return distance(p, at + Vec3{4, 2, 0}) < 6 + amount * std::sin(3 * p.x + round) * std::cos(2 * p.y);
                 });
             };
@@ -119,8 +110,8 @@ TEST(Differences, AreAllVoxelsAndTheirDistancesAreExact) {
 
 TEST(Differences, OfEqualMasksAndOfAnEmptyOneThereAreNone) {
     const Grid grid = grid_of({5, 5, 5}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    const Mask one = mask_where(grid, [](const Vec3& p) { return p.x > 1; });
-    const Mask empty = mask_where(grid, [](const Vec3&) { return false; });
+    const Mask one = test::mask_of(grid, [](const Vec3& p) { return p.x > 1; });
+    const Mask empty = test::mask_of(grid, [](const Vec3&) { return false; });
     EXPECT_TRUE(differences(one, one).empty());
     EXPECT_TRUE(differences(one, empty).empty());
     EXPECT_TRUE(differences(empty, one).empty());

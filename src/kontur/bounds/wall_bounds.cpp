@@ -56,11 +56,12 @@ public:
             const std::size_t stride = std::max<std::size_t>(1, line.size() / kRimPoints);
             for (std::size_t i = 0; i < line.size(); i += stride) {
                 const Vec3 rim = own_.section.plane.from_uv(line[i]);
+                const double flare = next ? slope(*next, rim) : 0;
                 for (const double share : kDepths) {
                     const double below = share * depth_;
                     if (next && below > next->distance_mm / 2) break;
                     bounds.push_back({.position = rim - below * up_,
-                                      .most_mm = (next ? below * slope(*next, rim) : 0) + kBulge * below,
+                                      .most_mm = below * flare + kBulge * below,
                                       .noise_mm = faded(kNoise * below, belief)});
                 }
             }

@@ -1,44 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // Studies of an archive on the start page: Debian's Orthanc by DICOMweb.
 import assert from "node:assert/strict";
-import { spawn, type ChildProcess } from "node:child_process";
-import { mkdirSync, readdirSync, statSync } from "node:fs";
-import { dirname, join } from "node:path";
-import { createInterface } from "node:readline";
+import { readdirSync, statSync } from "node:fs";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Browser } from "playwright-core";
 import { launch } from "./browsers";
+import { Orthanc } from "./orthanc";
 import { circle, cleanUp, Server, temporaryFolder, Viewer } from "./support";
 
 const folder = temporaryFolder();
-const python = process.env["KONTUR_TEST_PYTHON"];
-const series = process.env["KONTUR_DICOM_SERIES"];
-let archive: ChildProcess | undefined;
+const archive = new Orthanc(join(folder.path, "orthanc"));
 let address = "";
 let server: Server;
 let browser: Browser;
 
-/** Its address; "" where Orthanc is not installed. With a port the archive of before comes back. */
-function serve(...port: string[]): Promise<string> {
-  if (!python || !series) return Promise.resolve("");
-  const script = join(dirname(series), "..", "archive", "serve.py");
-  const child = (archive = spawn(python, [script, join(folder.path, "orthanc"), ...port], { stdio: ["pipe", "pipe", "inherit"] }));
-  return new Promise((resolve, reject) => {
-    createInterface(child.stdout).once("line", resolve);
-    child.once("exit", (code) => (code === 77 ? resolve("") : reject(new Error(`the archive ended: ${code}`))));
-  });
-}
-
 before(async () => {
-  mkdirSync(join(folder.path, "orthanc"));
-  address = await serve();
+  address = await archive.serve();
   if (address === "") return;
   browser = await launch();
   server = await Server.startAt({ HOME: folder.path, XDG_CACHE_HOME: join(folder.path, "cache") }, folder.path, "--archive", address);
 });
 
 after(() => {
-  archive?.stdin?.end();
+  archive.end();
 });
 cleanUp(folder, () => [browser, server]);
 
@@ -86,8 +71,7 @@ test("lists studies, shows the series of one with a picture, and opens it", asyn
   await said.filter({ hasText: "has stored it in the study of the image." }).waitFor();
   await picture(viewer, "archive_sent");
   assert.deepEqual((await modalities()).sort(), ["CT", "SEG"]);
-  archive!.stdin!.end();
-  await new Promise((resolve) => archive!.once("exit", resolve));
+  await archive.ended();
   await page.click('[data-test="send-rtstruct.dcm"]');
   await said.filter({ hasText: "DICOM RTSTRUCT was not sent: " }).waitFor();
   await picture(viewer, "archive_not_sent");
@@ -103,7 +87,7 @@ test("lists studies, shows the series of one with a picture, and opens it", asyn
   assert.equal(statSync(join(outbox, kept!)).mode & 0o777, 0o600);
   await page.close();
   await server.end();
-  assert.equal(await serve(new URL(address).port), address);
+  assert.equal(await archive.serve(new URL(address).port), address);
   server = await Server.startAt({ HOME: folder.path, XDG_CACHE_HOME: join(folder.path, "cache") }, folder.path, "--archive", address);
   const again = await Viewer.openStart(browser, server.address);
   await again.page.locator("[data-test=recent]").first().click();

@@ -1,45 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // A planner's day: a study from the archive, a tumour, its margin within the body and away from the cord, a correction, approvals, and back.
 import assert from "node:assert/strict";
-import { spawn, spawnSync, type ChildProcess } from "node:child_process";
-import { mkdirSync } from "node:fs";
-import { dirname, join } from "node:path";
-import { createInterface } from "node:readline";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Browser } from "playwright-core";
 import { launch } from "./browsers";
+import { Orthanc } from "./orthanc";
 import { circle, cleanUp, Server, temporaryFolder, Viewer } from "./support";
 
 const folder = temporaryFolder();
-const python = process.env["KONTUR_TEST_PYTHON"];
-const series = process.env["KONTUR_DICOM_SERIES"];
-let archive: ChildProcess | undefined;
+const archive = new Orthanc(join(folder.path, "orthanc"));
 let address = "";
 let server: Server;
 let browser: Browser;
 
-/** Its address; "" where Orthanc is not installed. */
-function serve(): Promise<string> {
-  if (!python || !series) return Promise.resolve("");
-  const scripts = join(dirname(series), "..", "archive");
-  mkdirSync(join(folder.path, "orthanc"));
-  assert.equal(spawnSync(python, [join(scripts, "make_patient.py"), join(folder.path, "orthanc")], { stdio: "inherit" }).status, 0);
-  const child = (archive = spawn(python, [join(scripts, "serve.py"), join(folder.path, "orthanc")], { stdio: ["pipe", "pipe", "inherit"] }));
-  return new Promise((resolve, reject) => {
-    createInterface(child.stdout).once("line", resolve);
-    child.once("exit", (code) => (code === 77 ? resolve("") : reject(new Error(`the archive ended: ${code}`))));
-  });
-}
-
 before(async () => {
-  address = await serve();
+  archive.makePatient();
+  address = await archive.serve();
   if (address === "") return;
   browser = await launch();
   server = await Server.startAt({ HOME: folder.path, XDG_CACHE_HOME: join(folder.path, "cache") }, folder.path, "--archive", address);
 });
 
 after(() => {
-  archive?.stdin?.end();
+  archive.end();
 });
 cleanUp(folder, () => [browser, server]);
 

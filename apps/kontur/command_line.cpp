@@ -419,6 +419,8 @@ void add_correct(CLI::App& app, Invocation& invocation) {
     bind.sub->get_option("--use-image")->needs(image);
     bind.defaulted("--reach", c.options.reach, "FACTOR", "How far a correction is carried on, from 0.25 to 4");
     bind.flag("--drop-loose", c.options.drop_loose, "Take away the pieces that a correction cuts off");
+    bind.flag("--shared-borders", c.shared_borders,
+              "Of a label map: where the label retreats from another one that it touched, this one follows");
     bind.option("--provenance-map", c.provenance_map, "FILE",
                 "Label map to write of what made each voxel: 1 as before, 2 added and 3 removed where drawn, 4 added and 5 "
                 "removed beside, 6 added and 7 removed by the image");

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+[[noreturn]] void refuse_for_labels_alone(std::string_view option, const fs::path& mask) {
+    throw Error(ErrorKind::invalid_input,
+                fmt::format("{} is for label maps, and {} is none; leave it out", option, mask.string()));
+}
+
 /// What needs an image, or does not go with one.
 void check_image_needed(const CorrectCommand& command) {
     const FileKind kind = input_kind(command.mask.path);
@@ -33,9 +39,8 @@ void check_image_needed(const CorrectCommand& command) {
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} holds {}, which has no voxels; give the image that shows it with --image",
                                 command.mask.path.string(), kind == FileKind::mesh ? "a surface" : "contours"));
-    if (kind != FileKind::image && command.label)
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("--label is for label maps, and {} is none; leave it out", command.mask.path.string()));
+    if (kind != FileKind::image && command.label) refuse_for_labels_alone("--label", command.mask.path);
+    if (kind != FileKind::image && command.shared_borders) refuse_for_labels_alone("--shared-borders", command.mask.path);
     if (kind != FileKind::contours && command.mask_roi)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("--mask-roi is for an RTSTRUCT, and {} is none; leave it out", command.mask.path.string()));
@@ -66,6 +71,7 @@ void check(const CorrectCommand& command) {
 
 Provenance provenance_of(const CorrectCommand& command, const Work& work) {
     std::string options = fmt::format("reach={} drop_loose={}", command.options.reach, command.options.drop_loose);
+    if (command.shared_borders) options += " shared_borders=true";
     if (command.label) options += fmt::format(" label={}", *command.label);
     if (command.mask_roi) options += fmt::format(" mask_roi={}", *command.mask_roi);
     std::vector<std::pair<std::string, fs::path>> inputs{{"mask", command.mask.path}};
@@ -156,6 +162,8 @@ std::vector<std::string> loose_sentences(const CorrectReport& report) {
 
 CorrectedFile correct_file(const CorrectCommand& command, Console& console, const Work& work) {
     CorrectedFile made{read_mask_file(command, console, work), {}, {}, {}, {}};
+    if (command.shared_borders && !made.file.structures.segments.empty())
+        refuse_for_labels_alone("--shared-borders", command.mask.path);
     const std::optional<Image> image = shown_in(command, console, work);
     const Mask& mask = made.file.mask;
     ReadCorrections read = read_corrections(command.corrections, command.read);
@@ -163,7 +171,8 @@ CorrectedFile correct_file(const CorrectCommand& command, Console& console, cons
     made.corrected =
         correct({mask, ExistingSurface(mask, work), image ? &*image : nullptr}, read.corrections, command.options, work);
     made.warnings = made.corrected.report.warnings;
-    for (const auto& some : {put(made.file, made.corrected), loose_sentences(made.corrected.report)})
+    for (const auto& some :
+         {put(made.file, made.corrected, command.shared_borders, work), loose_sentences(made.corrected.report)})
         made.warnings.insert(made.warnings.end(), some.begin(), some.end());
     made.made = provenance_of(command, work);
     return made;

@@ -14,6 +14,7 @@
 #include "in_faults_of.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
+#include "kontur/correct/ceded_voxels.h"
 #include "kontur/extract/mesh_mask.h"
 #include "kontur/extract/rasterize.h"
 #include "kontur/io/contours/contour_json.h"
@@ -115,6 +116,30 @@ std::vector<std::string> losses(const MaskFile& file, const Mask& corrected) {
     return sentences;
 }
 
+/// Of a voxel of a map: the label that it gets.
+struct GivenVoxel {
+    std::size_t offset;
+    std::int64_t label;
+};
+
+/// What the label loses where it touched others.
+std::vector<GivenVoxel> given_voxels(const MaskFile& file, const Mask& corrected, const Work& work) {
+    std::vector<GivenVoxel> given;
+    for (const CededVoxel& voxel : ceded_voxels(file.mask, corrected, work))
+        if (const auto label = static_cast<std::int64_t>(sample(file.labels, voxel.neighbor)); label != 0)
+            given.push_back({voxel.offset, label});
+    return given;
+}
+
+std::vector<std::string> gains(const std::vector<GivenVoxel>& given, std::int64_t from) {
+    std::map<std::int64_t, std::size_t> gained;
+    for (const GivenVoxel& voxel : given) ++gained[voxel.label];
+    std::vector<std::string> sentences;
+    for (const auto& [label, voxels] : gained)
+        sentences.push_back(fmt::format("label {} gets {} of label {}", label, counted(voxels, "voxel"), from));
+    return sentences;
+}
+
 /// Who made it before, and what corrected it.
 void name_algorithm(DicomSegment& segment) {
     constexpr std::size_t kMostBytes = 64;
@@ -166,12 +191,15 @@ ReadCorrections read_corrections(const std::vector<fs::path>& paths, const ReadC
     return found;
 }
 
-std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected) {
+std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected, bool shared_borders, const Work& work) {
     if (!file.structures.segments.empty()) {
         file.structures.masks[file.chosen] = corrected.mask;
         return {};
     }
     std::vector<std::string> sentences = losses(file, corrected.mask);
+    std::vector<GivenVoxel> given;
+    if (shared_borders) given = given_voxels(file, corrected.mask, work);
+    for (std::string& sentence : gains(given, file.label)) sentences.push_back(std::move(sentence));
     std::visit(
         [&](auto& samples) {
             using Value = typename std::decay_t<decltype(samples)>::value_type;
@@ -179,6 +207,7 @@ std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected) {
                 if (corrected.mask.values[n] != 0) samples[n] = static_cast<Value>(file.label);
                 else if (file.mask.values[n] != 0) samples[n] = 0;
             }
+            for (const GivenVoxel& voxel : given) samples[voxel.offset] = static_cast<Value>(voxel.label);
         },
         file.labels.samples);
     return sentences;

@@ -36,8 +36,9 @@ struct ReadCorrections {
 };
 ReadCorrections read_corrections(const std::vector<std::filesystem::path>& paths, const ReadContoursOptions& options);
 
-/// Puts the corrected voxels in; all others keep their values. One sentence for each label that loses some.
-std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected);
+/// Puts the corrected voxels in; all others keep their values. With `shared_borders`, voxels that the label of a map loses
+/// go to the label that it touched there. One sentence for each label that loses or gets some.
+std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected, bool shared_borders, const Work& work);
 
 /// A mask's file with the corrected mask in it.
 struct CorrectedFile {

@@ -136,7 +136,31 @@ def test_confirmed_planes_change_nothing(case):
     assert (voxels(folder / "new.nii.gz") == labels).all()
 
 
+def test_labels_follow_where_they_touched(case):
+    """Half of a ball is 3, the other one 5; the border should lie farther on the side of 3."""
+    folder, _, ball = case
+    x, y, z = np.mgrid[:50, :50, :20] * np.array(SPACING)[:, None, None, None]
+    labels = np.where(ball, np.where(x < 28, 3, 5), 0).astype(np.uint8)
+    affine = np.diag([-1, -1, 1, 1]) @ np.diag([*SPACING, 1])
+    nibabel.save(nibabel.Nifti1Image(labels, affine), folder / "halves.nii.gz")
+    heights = np.sqrt(15**2 - (24 - 25) ** 2)
+    line = np.linspace(-heights, heights, 60)
+    write(folder / "line.json", np.stack([24 + 0 * line, 25 + line, 25 + 0 * line], 1), closed=False)
+    words = ["correct", "halves.nii.gz", "line.json", "--label", 3, "-o"]
+    succeed(*words, "alone.nii.gz", cwd=folder)
+    followed = kontur(*words, "new.nii.gz", "--shared-borders", cwd=folder)
+    alone, new = voxels(folder / "alone.nii.gz"), voxels(folder / "new.nii.gz")
+    assert ((alone == 3) == (new == 3)).all() and ((alone == 5) == (labels == 5)).all()
+    gap = ball & (alone == 0)
+    assert gap[:, :, 10].sum() > 80
+    inner = gap & ((x - 25) ** 2 + (y - 25) ** 2 + (z - 25) ** 2 < 12**2)
+    assert (new[inner] == 5).all() and inner.sum() > 80
+    assert (new[labels == 5] == 5).all() and (new[~ball] == 0).all()
+    assert f"label 5 gets {(new == 5).sum() - (labels == 5).sum()} voxels of label 3" in followed.stderr
+
+
 @pytest.mark.parametrize("words, said", [
+    (["rings.json", "fix.json", "--image", "image.nii.gz", "--shared-borders"], "--shared-borders is for label maps"),
     (["mask.nii.gz", "fix.json"], "--label"),
     (["mask.nii.gz", "fix.json", "--label", "5"], "5"),
     (["mask.nii.gz", "fix.json", "--label", "3", "--reach", "9"], "between 0.25 and 4"),

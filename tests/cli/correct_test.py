@@ -153,7 +153,7 @@ def test_labels_follow_where_they_touched(case):
     assert ((alone == 3) == (new == 3)).all() and ((alone == 5) == (labels == 5)).all()
     gap = ball & (alone == 0)
     assert gap[:, :, 10].sum() > 80
-    inner = gap & ((x - 25) ** 2 + (y - 25) ** 2 + (z - 25) ** 2 < 12**2)
+    inner = gap & ((x - 25) ** 2 + (y - 25) ** 2 + (z - 25) ** 2 < 10**2)
     assert (new[inner] == 5).all() and inner.sum() > 80
     assert (new[labels == 5] == 5).all() and (new[~ball] == 0).all()
     assert f"label 5 gets {(new == 5).sum() - (labels == 5).sum()} voxels of label 3" in followed.stderr

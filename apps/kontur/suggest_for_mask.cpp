@@ -78,7 +78,7 @@ void write(const SuggestCommand& command, const std::vector<PlaneToLookAt>& foun
                       [&](const std::filesystem::path& path) { write_planes_json(path, planes, drawing.name); });
     if (!command.sketch.empty())
         outputs.write(command.sketch, [&](const std::filesystem::path& path) {
-            write_contour_json(path, sketch_of(planes, existing_mesh(surface, work), drawing));
+            write_contour_json(path, sketch_of(planes, ExistingMesh(surface, work).mesh(work), drawing));
         });
     outputs.commit();
 }

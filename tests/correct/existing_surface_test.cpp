@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "kontur/base/distance_transform.h"
 #include "kontur/correct/existing_mesh.h"
 #include "kontur/extract/mesh_mask.h"
 #include "support/mask_of.h"
+#include "support/random.h"
 
 namespace kontur {
 namespace {
@@ -61,14 +64,18 @@ TEST(ExistingSurface, EndsWithTheImageHalfAVoxelBeyondIt) {
     EXPECT_LT(surface.value(grid.index_to_mm.apply({-9, 26, 15})), -8);
 }
 
+TriangleMesh mesh_of(const Mask& mask) {
+    const ExistingSurface surface(mask);
+    return ExistingMesh(surface).mesh();
+}
+
 TEST(ExistingMesh, IsAsLargeAsTheMask) {
     const Grid grid = turned({1, 1, 1}, 0);
     for (const double radius : {5.0, 7.0, 12.0}) {
         const Mask mask = ball(grid, grid.center_mm(24, 26, 15) + Vec3{0.2, 0.3, 0.1}, radius);
         double mask_mm3 = 0;
         for (const std::uint8_t inside : mask.values) mask_mm3 += inside;
-        EXPECT_NEAR(signed_volume_mm3(existing_mesh(ExistingSurface(mask))) / mask_mm3, 1, radius < 6 ? 0.03 : 0.02)
-            << radius;
+        EXPECT_NEAR(signed_volume_mm3(mesh_of(mask)) / mask_mm3, 1, radius < 6 ? 0.03 : 0.02) << radius;
     }
 }
 
@@ -78,7 +85,7 @@ TEST(ExistingMesh, IsASolidWithEachVoxelOnItsSide) {
         grid.index_to_mm.set_column(0, mirror * grid.index_to_mm.column(0));
         const Vec3 center = grid.center_mm(24, 26, 15);
         const Mask mask = ball(grid, center, 12);
-        const TriangleMesh mesh = existing_mesh(ExistingSurface(mask));
+        const TriangleMesh mesh = mesh_of(mask);
         const MeshTopology solid = topology(mesh);
         EXPECT_TRUE(solid.closed && solid.oriented);
         EXPECT_EQ(solid.euler, 2);
@@ -89,9 +96,37 @@ TEST(ExistingMesh, IsASolidWithEachVoxelOnItsSide) {
             EXPECT_GT(dot(mesh.normals[n], normalized(mesh.points[n] - center)), 0.7);
     }
     const Grid whole = turned({1, 1, 1}, 0);
-    const TriangleMesh cut =
-        existing_mesh(ExistingSurface({whole, std::vector<std::uint8_t>(static_cast<std::size_t>(whole.voxel_count()), 1)}));
+    const TriangleMesh cut = mesh_of({whole, std::vector<std::uint8_t>(static_cast<std::size_t>(whole.voxel_count()), 1)});
     EXPECT_TRUE(topology(cut).closed) << "half a voxel beyond the image";
+}
+
+TEST(ExistingMesh, HasEachVoxelOnItsSideWhereverSomeChange) {
+    std::mt19937 random = test::random_of_this_test();
+    const Grid grid = turned({1, 1.2, 2}, 0.2);
+    const Mask before = ball(grid, grid.center_mm(24, 26, 15), 9);
+    const ExistingSurface surface(before);
+    const ExistingMesh existing(surface);
+    const TriangleMesh plain = existing.mesh();
+    // Beside each other, at the grid's corner and near the ball.
+    std::vector<std::size_t> changed{0, 1, before.values.size() - 1};
+    for (int n = 0; n < 300; ++n) changed.push_back(random() % before.values.size());
+    std::ranges::sort(changed);
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    Mask after = before;
+    std::vector<MadeVoxel> made;
+    for (const std::size_t n : changed) {
+        made.push_back({n, before.values[n] ? CorrectedVoxel::removed_drawn : CorrectedVoxel::added_drawn});
+        after.values[n] ^= 1;
+    }
+    const CorrectedMesh corrected = existing.corrected({}, made);
+    EXPECT_TRUE(topology(corrected.mesh).closed && topology(corrected.mesh).oriented);
+    EXPECT_EQ(voxelize_mesh(corrected.mesh, grid).mask.values, after.values);
+    ASSERT_EQ(corrected.made_by.size(), corrected.mesh.points.size());
+    EXPECT_GT(std::ranges::count(corrected.made_by, CorrectedVoxel::added_drawn), 500);
+    EXPECT_GT(std::ranges::count(corrected.made_by, CorrectedVoxel::inside), 500);
+    std::size_t same = 0;
+    for (const Vec3& p : plain.points) same += std::ranges::find(corrected.mesh.points, p) != corrected.mesh.points.end();
+    EXPECT_GT(same, plain.points.size() / 2) << "nothing moves where nothing changes";
 }
 
 TEST(DistanceTransform, KnowsSpacing) {

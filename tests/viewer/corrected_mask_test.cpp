@@ -10,6 +10,7 @@
 #include "kontur/extract/mesh_mask.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/image.h"
+#include "kontur/mask_change.h"
 #include "support/expect_error.h"
 #include "support/random.h"
 #include "support/temporary_folder.h"
@@ -101,15 +102,17 @@ TEST(CorrectedMask, ItsSurfaceIsASolidAndKnowsWhoMadeIt) {
     EXPECT_TRUE(solid.closed && solid.oriented);
     EXPECT_EQ(solid.euler, 2);
     EXPECT_NEAR(signed_volume_mm3(mesh) / 1000, corrected.report.volume_ml, 0.1 * corrected.report.volume_ml);
-    const std::vector<std::uint8_t> origins = origins_of(mesh, corrected);
-    ASSERT_EQ(origins.size(), mesh.points.size());
+    const ExistingSurface surface(mask);
+    const MaskChange change = mask_change({mask, surface}, corrections, {});
+    const CorrectedMesh shown = ExistingMesh(surface).corrected(*change.function, change.voxels);
+    const TriangleMesh& fast = shown.mesh;
+    const std::vector<std::uint8_t> origins = origins_of(shown.made_by);
+    ASSERT_EQ(origins.size(), fast.points.size());
     double farthest_mm = 0;
     for (std::size_t n = 0; n < origins.size(); ++n)
-        if (origins[n] != 0) farthest_mm = std::max(farthest_mm, std::abs(mesh.points[n].z - 20));
+        if (origins[n] != 0) farthest_mm = std::max(farthest_mm, std::abs(fast.points[n].z - 20));
     EXPECT_GT(farthest_mm, 2) << "carried on";
     EXPECT_LT(farthest_mm, corrected.report.reach_mm + 2);
-    const ExistingSurface surface(mask);
-    const TriangleMesh fast = corrected_mesh(surface, unshrunk_values(surface), *corrected.change, corrected.mask);
     EXPECT_EQ(topology(fast).euler, 2);
     EXPECT_TRUE(topology(fast).closed && topology(fast).oriented);
     EXPECT_EQ(voxelize_mesh(fast, mask.grid).mask.values, corrected.mask.values) << "each voxel on its side";

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "kontur/base/parallel.h"
-#include "kontur/correct/corrected_voxels.h"
 #include "kontur/correct/existing_mesh.h"
 
 namespace kontur::viewer {
@@ -35,8 +34,8 @@ bool is_aligned(const Affine3& to_index, const Index3& size) {
 
 Index3 rounded(const Vec3& index) { return {std::llround(index.x), std::llround(index.y), std::llround(index.z)}; }
 
-SurfaceOrigin origin_of(std::uint8_t voxel) {
-    switch (static_cast<CorrectedVoxel>(voxel)) {
+SurfaceOrigin origin_of(CorrectedVoxel how) {
+    switch (how) {
         case CorrectedVoxel::added_drawn:
         case CorrectedVoxel::removed_drawn:
             return SurfaceOrigin::drawn;
@@ -67,33 +66,14 @@ CorrectOptions correct_options(const StructureMask& how) { return {.reach = how.
 
 TriangleMesh mesh_of(const Mask& mask, const Work& work) {
     if (is_empty(mask)) return {};
-    return existing_mesh(ExistingSurface(mask, work), work);
+    const ExistingSurface surface(mask, work);
+    return ExistingMesh(surface, work).mesh(work);
 }
 
-std::vector<std::uint8_t> origins_of(const TriangleMesh& mesh, const CorrectedMask& corrected) {
-    const Grid& grid = corrected.mask.grid;
-    const Affine3 to_index = grid.index_to_mm.inverse();
-    // By who counts where two meet.
-    constexpr std::array kRank{0, 3, 1, 2};
+std::vector<std::uint8_t> origins_of(const std::vector<CorrectedVoxel>& made_by) {
     std::vector<std::uint8_t> origins;
-    origins.reserve(mesh.points.size());
-    for (const Vec3& p : mesh.points) {
-        const Vec3 index = to_index.apply(p);
-        SurfaceOrigin who = SurfaceOrigin::as_it_was;
-        for (int corner = 0; corner < 8; ++corner) {
-            Index3 voxel;
-            bool is_inside = true;
-            for (int axis = 0; axis < 3; ++axis) {
-                voxel[axis] =
-                    static_cast<std::int64_t>(corner >> axis & 1 ? std::ceil(index[axis]) : std::floor(index[axis]));
-                is_inside = is_inside && voxel[axis] >= 0 && voxel[axis] < grid.size[axis];
-            }
-            if (!is_inside) continue;
-            const SurfaceOrigin found = origin_of(corrected.origin[grid.offset(voxel.i, voxel.j, voxel.k)]);
-            if (kRank[static_cast<std::size_t>(found)] > kRank[static_cast<std::size_t>(who)]) who = found;
-        }
-        origins.push_back(static_cast<std::uint8_t>(who));
-    }
+    origins.reserve(made_by.size());
+    for (const CorrectedVoxel how : made_by) origins.push_back(static_cast<std::uint8_t>(origin_of(how)));
     return origins;
 }
 

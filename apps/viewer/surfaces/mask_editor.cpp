@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <cstring>
 #include <iterator>
 #include <mutex>
 #include <thread>
@@ -11,8 +10,8 @@
 
 #include "kontur/base/error.h"
 #include "kontur/correct/corrected_section.h"
-#include "kontur/correct/corrected_voxels.h"
 #include "kontur/correct/existing_mesh.h"
+#include "kontur/mask_change.h"
 #include "viewer/surfaces/corrected_mask.h"
 
 namespace kontur::viewer {
@@ -35,18 +34,10 @@ struct ChangedVoxels {
     double volume_ml = 0;
 };
 
-ChangedVoxels changed_by(const CorrectedMask& corrected, std::uint64_t step) {
-    constexpr std::uint64_t kChanged =
-        0xFEFEFEFEFEFEFEFE;  // of eight voxels: others are outside (0) or inside (1) as before
-    const std::vector<std::uint8_t>& origin = corrected.origin;
-    ChangedVoxels changed{step, {}, corrected.report.volume_ml};
-    for (std::size_t n = 0; n < origin.size(); n += 8) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, &origin[n], std::min<std::size_t>(8, origin.size() - n));
-        if ((eight & kChanged) == 0) continue;
-        for (std::size_t m = n; m < std::min(n + 8, origin.size()); ++m)
-            if (origin[m] > static_cast<std::uint8_t>(CorrectedVoxel::inside)) changed.offsets.push_back(m);
-    }
+ChangedVoxels changed_by(const MaskChange& change, std::uint64_t step) {
+    ChangedVoxels changed{step, {}, change.report.volume_ml};
+    changed.offsets.reserve(change.voxels.size());
+    for (const MadeVoxel& voxel : change.voxels) changed.offsets.push_back(voxel.offset);
     return changed;
 }
 
@@ -56,30 +47,16 @@ MaskStep step_between(const ChangedVoxels& before, const ChangedVoxels& after) {
     return {static_cast<std::int64_t>(differing.size()), after.volume_ml - before.volume_ml};
 }
 
-/// The mask as correct() takes it: some bytes for each of its voxels.
+/// The mask as mask_change() takes it, and its mesh: some bytes for each of its voxels.
 struct VolumeOfMask {
-    explicit VolumeOfMask(Mask mask) : whole(std::move(mask)), surface(whole), unshrunk(unshrunk_values(surface)) {}
+    explicit VolumeOfMask(Mask mask) : whole(std::move(mask)), surface(whole), mesh(surface) {}
+    VolumeOfMask(const VolumeOfMask&) = delete;
+    VolumeOfMask& operator=(const VolumeOfMask&) = delete;
+
     Mask whole;
     ExistingSurface surface;
-    std::vector<float> unshrunk;
+    ExistingMesh mesh;  ///< of that
 };
-
-bool are_within(const std::vector<std::size_t>& voxels, const Index3& size, const IndexBox& box) {
-    return std::ranges::all_of(voxels, [&](std::size_t voxel) { return box.contains(index_at(voxel, size)); });
-}
-
-std::shared_ptr<MaskEdit> edit_of(const CorrectedMask& corrected, const ChangedVoxels& changed, const VolumeOfMask& mask,
-                                  const Work& work) {
-    auto made = std::make_shared<MaskEdit>();
-    made->report = corrected.report;
-    const bool is_fast = are_within(changed.offsets, mask.whole.grid.size, mask.surface.window_box());
-    auto mesh = std::make_shared<TriangleMesh>(
-        is_fast ? corrected_mesh(mask.surface, mask.unshrunk, *corrected.change, corrected.mask, work)
-                : mesh_of(corrected.mask, work));
-    made->origins = origins_of(*mesh, corrected);
-    made->mesh = std::move(mesh);
-    return made;
-}
 
 }  // namespace
 
@@ -149,10 +126,14 @@ struct MaskEditor::Worker {
             tell(update);
         };
         const std::shared_ptr<const VolumeOfMask> mask = opened_mask();
-        const CorrectedMask made = correct({mask->whole, mask->surface, image}, request.corrections, request.options, work);
-        ChangedVoxels changed = changed_by(made, request.step);
-        const std::shared_ptr<MaskEdit> edit = edit_of(made, changed, *mask, Work{.stop = stop});
-        edit->step = step_of(std::move(changed), made.report);
+        const MaskChange change =
+            mask_change({mask->whole, mask->surface, image}, request.corrections, request.options, work);
+        CorrectedMesh made = mask->mesh.corrected(*change.function, change.voxels, Work{.stop = stop});
+        auto edit = std::make_shared<MaskEdit>();
+        edit->report = change.report;
+        edit->origins = origins_of(made.made_by);
+        edit->mesh = std::make_shared<const TriangleMesh>(std::move(made.mesh));
+        edit->step = step_of(changed_by(change, request.step), change.report);
         return edit;
     }
 

@@ -108,7 +108,7 @@ private:
     void mark_planes() {
         known_.resize(at_.looks.size());
         const Grid& whole = correction_.mask.grid;
-        for (const VoxelSide& drawn : drawn_voxels(sections_, whole)) {
+        for (const VoxelSide& drawn : drawn_voxels(sections_, whole, at_.box)) {
             const Index3 v = index_at(drawn.offset, whole.size);
             if (at_.box.contains(v))
                 voxels_.alone[at_.grid.offset(v.i - at_.box.low.i, v.j - at_.box.low.j, v.k - at_.box.low.k)] = drawn.inside;

@@ -20,6 +20,9 @@ ChangeLattice::ChangeLattice(const ExistingSurface& surface, const SurfaceChange
         const std::int64_t before = (box.low[axis] - surface.object_box().low[axis]) % step_[axis];
         first_[axis] = box.low[axis] - (before < 0 ? before + step_[axis] : before);
         size_[axis] = (box.high[axis] - first_[axis]) / step_[axis] + 2;
+        for (std::int64_t n = 0; n <= box.high[axis] - first_[axis]; ++n)
+            places_[static_cast<std::size_t>(axis)].push_back(
+                {n / step_[axis], static_cast<double>(n % step_[axis]) / static_cast<double>(step_[axis])});
     }
     values_.resize(static_cast<std::size_t>(size_.i * size_.j * size_.k));
     near_mm_ = 1.1 * change.largest_mm() + 2 * step + largest(spacing);
@@ -36,25 +39,26 @@ ChangeLattice::ChangeLattice(const ExistingSurface& surface, const SurfaceChange
 }
 
 double ChangeLattice::at(const Index3& voxel) const {
-    Index3 low;
-    Vec3 part;
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::int64_t from = voxel[axis] - first_[axis];
-        low[axis] = from / step_[axis];
-        part[axis] = static_cast<double>(from % step_[axis]) / static_cast<double>(step_[axis]);
-    }
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        double weight = 1;
-        Index3 node = low;
-        for (int axis = 0; axis < 3; ++axis) {
-            const bool high = corner >> axis & 1;
-            weight *= high ? part[axis] : 1 - part[axis];
-            node[axis] += high;
-        }
-        if (weight > 0) sum += weight * values_[static_cast<std::size_t>(offset(node))];
-    }
-    return sum;
+    const Place& x = places_[0][static_cast<std::size_t>(voxel.i - first_.i)];
+    const Place& y = places_[1][static_cast<std::size_t>(voxel.j - first_.j)];
+    const Place& z = places_[2][static_cast<std::size_t>(voxel.k - first_.k)];
+    const double* node = values_.data() + offset({x.low, y.low, z.low});
+    const std::int64_t up = size_.i, over = size_.i * size_.j;
+    const auto along_i = [&](const double* p) { return (1 - x.part) * p[0] + x.part * p[1]; };
+    const auto along_j = [&](const double* p) { return (1 - y.part) * along_i(p) + y.part * along_i(p + up); };
+    return (1 - z.part) * along_j(node) + z.part * along_j(node + over);
+}
+
+ChangeLattice::Run ChangeLattice::run_from(const Index3& voxel) const {
+    const std::int64_t i = places_[0][static_cast<std::size_t>(voxel.i - first_.i)].low;
+    const std::int64_t j = places_[1][static_cast<std::size_t>(voxel.j - first_.j)].low;
+    const std::int64_t k = places_[2][static_cast<std::size_t>(voxel.k - first_.k)].low;
+    const double* node = values_.data() + offset({i, j, k});
+    const std::int64_t up = size_.i, over = size_.i * size_.j;
+    double most = 0;
+    for (const std::int64_t n : {std::int64_t{0}, up, over, up + over})
+        most = std::max({most, std::abs(node[n]), std::abs(node[n + 1])});
+    return {first_.i + (i + 1) * step_.i, most};
 }
 
 Index3 ChangeLattice::voxel_of(std::int64_t node) const {

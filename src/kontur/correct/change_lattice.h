@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -19,6 +21,12 @@ public:
 
     /// At a voxel of the box.
     double at(const Index3& voxel) const;
+    /// Voxels of a row from one on between whose nodes |g| is nowhere larger than this.
+    struct Run {
+        std::int64_t end;  ///< along i, behind the last one
+        double most_mm;
+    };
+    Run run_from(const Index3& voxel) const;
     /// Where |f0| is larger, f0 + g has f0's sign.
     double near_mm() const { return near_mm_; }
 
@@ -26,8 +34,15 @@ private:
     std::int64_t offset(const Index3& node) const { return node.i + size_.i * (node.j + size_.j * node.k); }
     Index3 voxel_of(std::int64_t node) const;
 
+    /// Where a voxel lies between the nodes of one axis.
+    struct Place {
+        std::int64_t low;  ///< in nodes
+        double part;       ///< of the way to the next one
+    };
+
     Index3 first_, step_, size_;
     double near_mm_ = 0;
+    std::array<std::vector<Place>, 3> places_;  ///< of the voxels from the first node on, along each axis
     std::vector<double> values_;
 };
 

@@ -37,7 +37,7 @@ BoxCorners corners_of(const Grid& grid) {
 /// The mask's outlines in a plane.
 Section outlines_in(const Plane& plane, const ExistingSurface& surface, double step_mm) {
     Section section{plane, {}, {}, {}};
-    const auto lattice = lattice_over(plane, corners_of(surface.window()), step_mm);
+    const auto lattice = lattice_over(plane, corners_of(surface.object_grid()), step_mm);
     if (!lattice) return section;
     std::vector<double> values(static_cast<std::size_t>(lattice->node_count()));
     for (std::int64_t j = 0; j < lattice->rows; ++j)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -15,50 +14,198 @@
 namespace kontur {
 namespace {
 
-class MeshBuilder {
-public:
-    /// `values` at the voxels of a grid.
-    MeshBuilder(const Grid& grid, std::vector<float> values)
-        : grid_(grid),
-          values_(std::move(values)),
-          to_index_(grid_.index_to_mm.inverse()),
-          is_mirrored_(grid_.index_to_mm.determinant() < 0) {
-        for (Slice& slice : slices_) slice.points.resize(static_cast<std::size_t>(3 * grid.size.i * grid.size.j));
-    }
+/// Of four voxels that differ in j (bit 0) and k (bit 1).
+unsigned inside_of(const std::array<const float*, 4>& rows, std::int64_t i) {
+    unsigned bits = 0;
+    for (unsigned n = 0; n < 4; ++n) bits |= static_cast<unsigned>(rows[n][i] > 0) << n;
+    return bits;
+}
 
-    /// The cells between slices k and k + 1; layers come in order.
-    void add_layer(std::int64_t k) {
-        const Index3& size = grid_.size;
-        slice_of(k + 1).earlier_points = mesh_.points.size();
-        for (std::int64_t j = 0; j + 1 < size.j; ++j) {
-            const float* row = values_.data() + grid_.offset(0, j, k);
+/// Room for the bits of the voxels beside them along i.
+unsigned spread(unsigned bits) { return (bits & 1) | (bits & 2) << 1 | (bits & 4) << 2 | (bits & 8) << 3; }
+
+/// Who counts where two voxels beside a point were changed.
+int rank(CorrectedVoxel how) {
+    switch (how) {
+        case CorrectedVoxel::added_drawn:
+        case CorrectedVoxel::removed_drawn:
+            return 3;
+        case CorrectedVoxel::added_image:
+        case CorrectedVoxel::removed_image:
+            return 2;
+        case CorrectedVoxel::added_carried:
+        case CorrectedVoxel::removed_carried:
+            return 1;
+        default:
+            return 0;
+    }
+}
+
+/// The box of all cells that the surface may cut.
+IndexBox cell_box(const ExistingSurface& surface, std::span<const MadeVoxel> voxels) {
+    IndexBox box = surface.window_box();
+    for (const MadeVoxel& voxel : voxels) {
+        const Index3 at = index_at(voxel.offset, surface.grid().size);
+        box = box_around(box, {{at.i - 1, at.j - 1, at.k - 1}, {at.i + 1, at.j + 1, at.k + 1}});
+    }
+    return box;
+}
+
+}  // namespace
+
+ExistingMesh::ExistingMesh(const ExistingSurface& surface, const Work& work)
+    : surface_(surface), values_(unshrunk_values(surface, work)) {
+    find_cells();
+}
+
+void ExistingMesh::find_cells() {
+    const Grid& window = surface_.window();
+    const Index3& size = window.size;
+    for (std::int64_t k = 0; k < size.k; ++k)
+        for (std::int64_t j = 0; j < size.j; ++j) {
+            row_start_.push_back(cells_.size());
+            if (j + 1 == size.j || k + 1 == size.k) continue;
+            const float* row = values_.data() + window.offset(0, j, k);
             const std::array rows{row, row + size.i, row + size.i * size.j, row + size.i * size.j + size.i};
             unsigned low = inside_of(rows, 0);
             for (std::int64_t i = 0; i + 1 < size.i; ++i) {
                 const unsigned high = inside_of(rows, i + 1), inside = spread(low) | spread(high) << 1;
-                if (inside != 0 && inside != 255) add_cell({i, j, k}, inside);
+                if (inside != 0 && inside != 255)
+                    cells_.push_back({static_cast<std::int32_t>(i), static_cast<std::uint8_t>(inside)});
                 low = high;
             }
         }
+    row_start_.push_back(cells_.size());
+}
+
+/// One mesh. Voxels and cells have the mask's indices, which may lie beyond its grid.
+class CorrectedMeshBuilder {
+public:
+    CorrectedMeshBuilder(const ExistingMesh& existing, const SurfaceChange& change, std::span<const MadeVoxel> voxels,
+                         const Work& work)
+        : existing_(existing),
+          grid_(existing.surface_.grid()),
+          window_(existing.surface_.window_box()),
+          box_(cell_box(existing.surface_, voxels)),
+          voxels_(voxels),
+          work_(work),
+          to_index_(grid_.index_to_mm.inverse()),
+          is_mirrored_(grid_.index_to_mm.determinant() < 0),
+          least_(least_value(existing.surface_)) {
+        if (!change.is_zero()) changed_ = index_box(existing.surface_.window(), change.box());
+        if (changed_) {
+            const Index3& first = window_.low;
+            for (Index3* end : {&changed_->low, &changed_->high})
+                *end = {end->i + first.i, end->j + first.j, end->k + first.k};
+            lattice_.emplace(existing.surface_, change, *changed_, work);
+        }
+        for (Slice& slice : slices_) slice.points.resize(static_cast<std::size_t>(3 * box_.size().i * box_.size().j));
+        find_rows();
     }
 
-    TriangleMesh finish() { return std::move(mesh_); }
+    CorrectedMesh build() {
+        for (std::int64_t k = box_.low.k; k < box_.high.k; ++k) {
+            work_.check();
+            slice_of(k + 1).earlier_points = edges_.size();
+            for (std::int64_t j = box_.low.j; j < box_.high.j; ++j) add_row(j, k);
+        }
+        place_points();
+        return std::move(made_);
+    }
 
 private:
-    /// Of four voxels that differ in j (bit 0) and k (bit 1).
-    static unsigned inside_of(const std::array<const float*, 4>& rows, std::int64_t i) {
-        unsigned bits = 0;
-        for (unsigned n = 0; n < 4; ++n) bits |= static_cast<unsigned>(rows[n][i] > 0) << n;
-        return bits;
+    using Cell = ExistingMesh::Cell;
+
+    /// The line from a voxel to the next one along an axis.
+    struct Edge {
+        Index3 from;
+        int axis;
+    };
+
+    std::size_t row_of(std::int64_t j, std::int64_t k) const {
+        return static_cast<std::size_t>(j - box_.low.j + box_.size().j * (k - box_.low.k));
     }
-    /// Room for the bits of the voxels beside them along i.
-    static unsigned spread(unsigned bits) { return (bits & 1) | (bits & 2) << 1 | (bits & 4) << 2 | (bits & 8) << 3; }
+
+    /// Where the changed voxels of each row begin.
+    void find_rows() {
+        const auto rows = static_cast<std::size_t>(box_.size().j * box_.size().k);
+        row_start_.assign(rows + 1, 0);
+        for (const MadeVoxel& voxel : voxels_) {
+            const Index3 at = index_at(voxel.offset, grid_.size);
+            ++row_start_[row_of(at.j, at.k) + 1];
+        }
+        for (std::size_t row = 0; row < rows; ++row) row_start_[row + 1] += row_start_[row];
+    }
+
+    std::span<const MadeVoxel> changed_in(std::int64_t j, std::int64_t k) const {
+        const std::size_t row = row_of(j, k);
+        return voxels_.subspan(row_start_[row], row_start_[row + 1] - row_start_[row]);
+    }
+
+    const MadeVoxel* changed_at(const Index3& v) const {
+        const std::span<const MadeVoxel> row = changed_in(v.j, v.k);
+        if (row.empty() || v.i < 0 || v.i >= grid_.size.i) return nullptr;
+        const auto found = std::ranges::lower_bound(row, grid_.offset(v.i, v.j, v.k), {}, &MadeVoxel::offset);
+        return found != row.end() && found->offset == grid_.offset(v.i, v.j, v.k) ? &*found : nullptr;
+    }
+
+    float value_before(const Index3& v) const {
+        if (!window_.contains(v)) return std::min(static_cast<float>(existing_.surface_.value_at_voxel(v)), -least_);
+        const Index3& low = window_.low;
+        return existing_.values_[existing_.surface_.window().offset(v.i - low.i, v.j - low.j, v.k - low.k)];
+    }
+
+    bool is_inside(const Index3& v) const {
+        const MadeVoxel* changed = changed_at(v);
+        return changed ? changed->is_inside() : value_before(v) > 0;
+    }
+
+    float value(const Index3& v) const {
+        const float before = value_before(v);
+        const MadeVoxel* changed = changed_at(v);
+        const bool inside = changed ? changed->is_inside() : before > 0;
+        float after = before;
+        if (changed_ && changed_->contains(v) && std::abs(static_cast<double>(before)) <= lattice_->near_mm())
+            after += static_cast<float>(lattice_->at(v));
+        return inside ? std::max(after, least_) : std::min(after, -least_);
+    }
+
+    std::span<const Cell> cells_before(std::int64_t j, std::int64_t k) const {
+        if (j < window_.low.j || j > window_.high.j || k < window_.low.k || k > window_.high.k) return {};
+        const std::int64_t row = j - window_.low.j + window_.size().j * (k - window_.low.k);
+        const std::size_t first = existing_.row_start_[static_cast<std::size_t>(row)];
+        return std::span(existing_.cells_).subspan(first, existing_.row_start_[static_cast<std::size_t>(row) + 1] - first);
+    }
+
+    void add_row(std::int64_t j, std::int64_t k) {
+        const std::array rows{changed_in(j, k), changed_in(j + 1, k), changed_in(j, k + 1), changed_in(j + 1, k + 1)};
+        if (std::ranges::all_of(rows, [](const auto& row) { return row.empty(); })) {
+            for (const Cell& cell : cells_before(j, k)) add_cell({cell.i + window_.low.i, j, k}, cell.inside);
+            return;
+        }
+        std::vector<std::int64_t> cells;
+        for (const Cell& cell : cells_before(j, k)) cells.push_back(cell.i + window_.low.i);
+        for (const auto& row : rows)
+            for (const MadeVoxel& voxel : row) {
+                const std::int64_t i = index_at(voxel.offset, grid_.size).i;
+                cells.insert(cells.end(), {i - 1, i});
+            }
+        std::ranges::sort(cells);
+        cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+        for (const std::int64_t i : cells) {
+            unsigned inside = 0;
+            for (int corner = 0; corner < 8; ++corner)
+                inside |= static_cast<unsigned>(is_inside({i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)}))
+                          << corner;
+            if (inside != 0 && inside != 255) add_cell({i, j, k}, inside);
+        }
+    }
 
     void add_cell(const Index3& cell, unsigned inside) {
         for (const CellTriangle& t : cell_triangles(inside)) {
             std::array<std::uint32_t, 3> triangle{point_on(cell, t[0]), point_on(cell, t[1]), point_on(cell, t[2])};
             if (is_mirrored_) std::swap(triangle[1], triangle[2]);
-            mesh_.triangles.push_back(triangle);
+            made_.mesh.triangles.push_back(triangle);
         }
     }
 
@@ -66,45 +213,59 @@ private:
         const CellEdge& edge = cell_edges()[static_cast<std::size_t>(edge_number)];
         const Index3 from{cell.i + (edge.from & 1), cell.j + (edge.from >> 1 & 1), cell.k + (edge.from >> 2 & 1)};
         Slice& slice = slice_of(from.k);
-        std::uint32_t& known = slice.points[static_cast<std::size_t>(3 * (from.i + grid_.size.i * from.j) + edge.axis)];
+        const std::int64_t in_slice = from.i - box_.low.i + box_.size().i * (from.j - box_.low.j);
+        std::uint32_t& known = slice.points[static_cast<std::size_t>(3 * in_slice + edge.axis)];
         if (known <= slice.earlier_points) {
-            add_point(from, edge.axis);
-            known = static_cast<std::uint32_t>(mesh_.points.size());
+            edges_.push_back({from, edge.axis});
+            known = static_cast<std::uint32_t>(edges_.size());
         }
         return known - 1;
     }
 
-    void add_point(const Index3& from, int axis) {
+    void place_points() {
+        TriangleMesh& mesh = made_.mesh;
+        mesh.points.resize(edges_.size());
+        mesh.normals.resize(edges_.size());
+        made_.made_by.resize(edges_.size());
+        parallel_for(static_cast<std::int64_t>(edges_.size()), 1 << 12, work_, [&](std::int64_t begin, std::int64_t end) {
+            for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) place(n);
+        });
+    }
+
+    void place(std::size_t n) {
+        const auto& [from, axis] = edges_[n];
         Index3 to = from;
         ++to[axis];
         const double low = value(from), high = value(to), part = low / (low - high);
         Vec3 index{static_cast<double>(from.i), static_cast<double>(from.j), static_cast<double>(from.k)};
         index[axis] += part;
-        mesh_.points.push_back(grid_.index_to_mm.apply(index));
+        made_.mesh.points[n] = grid_.index_to_mm.apply(index);
         const Vec3 slope = (1 - part) * slope_at(from) + part * slope_at(to);
         Vec3 gradient;
-        for (std::size_t n = 0; n < 3; ++n) {
-            const std::array<double, 3>& row = to_index_.linear[n];
-            gradient += slope[static_cast<int>(n)] * Vec3{row[0], row[1], row[2]};
+        for (std::size_t row = 0; row < 3; ++row) {
+            const std::array<double, 3>& linear = to_index_.linear[row];
+            gradient += slope[static_cast<int>(row)] * Vec3{linear[0], linear[1], linear[2]};
         }
-        mesh_.normals.push_back(-normalized(gradient));
+        made_.mesh.normals[n] = -normalized(gradient);
+        made_.made_by[n] = CorrectedVoxel::inside;
+        for (const Index3& v : {from, to})
+            if (const MadeVoxel* changed = changed_at(v); changed && rank(changed->how) > rank(made_.made_by[n]))
+                made_.made_by[n] = changed->how;
     }
 
-    double value(const Index3& at) const { return values_[grid_.offset(at.i, at.j, at.k)]; }
-
-    /// By differences; the window goes on for some voxels around the object.
+    /// By differences.
     Vec3 slope_at(const Index3& at) const {
         Vec3 slope;
         for (int axis = 0; axis < 3; ++axis) {
             Index3 low = at, high = at;
-            low[axis] = std::max(low[axis] - 1, std::int64_t{0});
-            high[axis] = std::min(high[axis] + 1, grid_.size[axis] - 1);
-            slope[axis] = (value(high) - value(low)) / static_cast<double>(high[axis] - low[axis]);
+            low[axis] = std::max(low[axis] - 1, box_.low[axis]);
+            high[axis] = std::min(high[axis] + 1, box_.high[axis]);
+            slope[axis] = (static_cast<double>(value(high)) - value(low)) / static_cast<double>(high[axis] - low[axis]);
         }
         return slope;
     }
 
-    /// Of the lines that begin at the voxels of a slice, by voxel and axis: one more than the number of their points.
+    /// Of the edges that begin at the voxels of a slice, by voxel and axis: one more than the number of their points.
     /// Numbers up to those that were there before the slice's first layer are of another slice.
     struct Slice {
         std::vector<std::uint32_t> points;
@@ -112,76 +273,25 @@ private:
     };
     Slice& slice_of(std::int64_t k) { return slices_[static_cast<std::size_t>(k & 1)]; }
 
+    const ExistingMesh& existing_;
     const Grid& grid_;
-    std::vector<float> values_;
+    IndexBox window_, box_;
+    std::span<const MadeVoxel> voxels_;
+    const Work& work_;
     Affine3 to_index_;
     bool is_mirrored_;
+    float least_;
+    std::optional<IndexBox> changed_;  ///< where g counts
+    std::optional<ChangeLattice> lattice_;
+    std::vector<std::size_t> row_start_;  ///< in `voxels_`, by row of the box
     std::array<Slice, 2> slices_;
-    TriangleMesh mesh_;
+    std::vector<Edge> edges_;  ///< one for each point
+    CorrectedMesh made_;
 };
 
-TriangleMesh mesh_of(const Grid& grid, std::vector<float> values, const Work& work) {
-    MeshBuilder builder(grid, std::move(values));
-    for (std::int64_t k = 0; k + 1 < grid.size.k; ++k) {
-        work.check();
-        builder.add_layer(k);
-    }
-    return builder.finish();
-}
-
-/// Adds g to values of f0 at the window's voxels.
-void add_change(const ExistingSurface& surface, const SurfaceChange& change, std::vector<float>& values, const Work& work) {
-    const Grid& window = surface.window();
-    const IndexBox in_grid = surface.window_box();
-    const std::optional<IndexBox> box = change.is_zero() ? std::nullopt : index_box(window, change.box());
-    if (!box) return;
-    const auto shifted = [&](const Index3& v) {
-        return Index3{v.i + in_grid.low.i, v.j + in_grid.low.j, v.k + in_grid.low.k};
-    };
-    const ChangeLattice lattice(surface, change, {shifted(box->low), shifted(box->high)}, work);
-    parallel_for(box->size().k, 1, work, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = box->low.k + begin; k < box->low.k + end; ++k)
-            for (std::int64_t j = box->low.j; j <= box->high.j; ++j)
-                for (std::int64_t i = box->low.i; i <= box->high.i; ++i) {
-                    float& value = values[window.offset(i, j, k)];
-                    if (std::abs(static_cast<double>(value)) <= lattice.near_mm())
-                        value += static_cast<float>(lattice.at(shifted({i, j, k})));
-                }
-    });
-}
-
-/// Gives the values at the window's voxels the signs of a mask, whose grid is the surface's.
-void keep_signs(const ExistingSurface& surface, const Mask& mask, std::vector<float>& values, const Work& work) {
-    const Grid& window = surface.window();
-    const Index3 low = surface.window_box().low, whole = mask.grid.size;
-    const float least = least_value(surface);
-    parallel_for(window.size.k, 1, work, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k)
-            for (std::int64_t j = 0; j < window.size.j; ++j) {
-                const std::int64_t y = j + low.j, z = k + low.k;
-                const bool is_in_grid = y >= 0 && z >= 0 && y < whole.j && z < whole.k;
-                float* values_of_row = values.data() + window.offset(0, j, k);
-                for (std::int64_t i = 0; i < window.size.i; ++i) {
-                    const std::int64_t x = i + low.i;
-                    const bool is_inside =
-                        is_in_grid && x >= 0 && x < whole.i && mask.values[mask.grid.offset(x, y, z)] != 0;
-                    values_of_row[i] = is_inside ? std::max(values_of_row[i], least) : std::min(values_of_row[i], -least);
-                }
-            }
-    });
-}
-
-}  // namespace
-
-TriangleMesh existing_mesh(const ExistingSurface& surface, const Work& work) {
-    return mesh_of(surface.window(), unshrunk_values(surface, work), work);
-}
-
-TriangleMesh corrected_mesh(const ExistingSurface& surface, std::vector<float> unshrunk, const SurfaceChange& change,
-                            const Mask& corrected, const Work& work) {
-    add_change(surface, change, unshrunk, work);
-    keep_signs(surface, corrected, unshrunk, work);
-    return mesh_of(surface.window(), std::move(unshrunk), work);
+CorrectedMesh ExistingMesh::corrected(const SurfaceChange& change, std::span<const MadeVoxel> voxels,
+                                      const Work& work) const {
+    return CorrectedMeshBuilder(*this, change, voxels, work).build();
 }
 
 }  // namespace kontur

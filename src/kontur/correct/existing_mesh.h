@@ -1,21 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "kontur/base/work.h"
 #include "kontur/correct/change.h"
+#include "kontur/correct/corrected_voxels.h"
 #include "kontur/correct/existing_surface.h"
 #include "kontur/shape/mesh.h"
 
 namespace kontur {
 
-/// Where f0 of a mask vanishes, between the voxels of its window: closed, oriented outward, manifold. Points lie on the
-/// lines between neighbouring voxel centres, so that each centre is on the side that the mask says; where the object reaches
-/// the grid's border, it ends half a voxel beyond. Normals are f0's downhill gradient. Linear in the window's voxels.
-TriangleMesh existing_mesh(const ExistingSurface& surface, const Work& work = {});
+/// A mask's surface as triangles, and who made its points.
+struct CorrectedMesh {
+    TriangleMesh mesh;
+    std::vector<CorrectedVoxel> made_by;  ///< of each point: what became of the voxels beside it; inside where nothing did
+};
 
-/// The same of a corrected mask, whose changed voxels all lie in the surface's window, at a fraction of the cost: where f0 +
-/// g vanishes. `unshrunk`: unshrunk_values of the surface. Where g and the mask disagree the mask's voxels count.
-TriangleMesh corrected_mesh(const ExistingSurface& surface, std::vector<float> unshrunk, const SurfaceChange& change,
-                            const Mask& corrected, const Work& work = {});
+/// Makes meshes of a mask and of what corrections make of it. What the mask alone decides is found once, so that a mesh
+/// costs its own points and what changes.
+class ExistingMesh {
+public:
+    /// Linear in the surface's window. The surface has to live as long.
+    explicit ExistingMesh(const ExistingSurface& surface, const Work& work = {});
+
+    /// Where f0 + g vanishes, between voxels: closed, oriented outward, manifold. Points lie on the lines between
+    /// neighbouring voxel centres, so that each centre is on the side that the mask with `voxels` changed says, also where g
+    /// says otherwise; where the object reaches the grid's border, it ends half a voxel beyond. Normals are the downhill
+    /// gradient. `voxels`: by offset.
+    CorrectedMesh corrected(const SurfaceChange& change, std::span<const MadeVoxel> voxels, const Work& work = {}) const;
+    TriangleMesh mesh(const Work& work = {}) const { return corrected({}, {}, work).mesh; }
+
+private:
+    friend class CorrectedMeshBuilder;
+
+    /// A cell with corners on both sides.
+    struct Cell {
+        std::int32_t i;
+        std::uint8_t inside;  ///< a bit for each corner, as cell_triangles has them
+    };
+
+    void find_cells();
+
+    const ExistingSurface& surface_;
+    std::vector<float> values_;           ///< unshrunk_values
+    std::vector<Cell> cells_;             ///< of the window
+    std::vector<std::size_t> row_start_;  ///< of row j + size.j * k in these, and one end more
+};
 
 }  // namespace kontur

@@ -135,6 +135,7 @@ ExistingSurface::ExistingSurface(const Mask& mask, const Work& work) : grid_(mas
     const std::vector<std::uint8_t> inside = inside_of(mask, tight);
     const Grid tight_grid = grid_of(grid_, tight);
     radius_mm_ = radius_of(inside, tight_grid);
+    voxels_inside_ = std::count(inside.begin(), inside.end(), 1);
     std::vector<std::uint8_t> outside(inside.size());
     std::transform(inside.begin(), inside.end(), outside.begin(), [](std::uint8_t v) { return v == 0; });
     const std::vector<float> depths = distances_from(outside, tight_grid, work);

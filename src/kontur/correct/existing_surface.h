@@ -26,8 +26,14 @@ public:
     const Grid& grid() const { return grid_; }
     /// The voxels at which f0 is known, a part of the grid or a little more. Beyond, f0 falls by 1 mm to the millimetre.
     const Grid& window() const { return window_; }
+    std::int64_t voxels_inside() const { return voxels_inside_; }
     /// Around the voxels inside.
     const IndexBox& object_box() const { return object_; }
+    /// Those, and one more on each side: f0 > 0 nowhere else.
+    Grid object_grid() const {
+        return grid_of(grid_, {{object_.low.i - 1, object_.low.j - 1, object_.low.k - 1},
+                               {object_.high.i + 1, object_.high.j + 1, object_.high.k + 1}});
+    }
     /// The window in the mask's indices.
     IndexBox window_box() const {
         const Index3& size = window_.size;
@@ -47,6 +53,7 @@ private:
     Index3 first_;  ///< the window's first voxel, in the mask's indices
     Affine3 to_window_;
     std::vector<float> values_;
+    std::int64_t voxels_inside_ = 0;
     double inscribed_radius_mm_ = 0, radius_mm_ = 0;
 };
 

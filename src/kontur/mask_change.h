@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kontur/base/work.h"
+#include "kontur/correct/corrected_voxels.h"
+#include "kontur/correct_mask.h"
+
+namespace kontur {
+
+/// What corrections make of a mask, as far as it differs from before.
+struct MaskChange {
+    std::vector<MadeVoxel> voxels;  ///< by offset
+    CorrectReport report;
+    /// Of the mask's function f0, without what slices, the image and loose pieces say voxel by voxel.
+    std::shared_ptr<const SurfaceChange> function;
+};
+
+/// As `correct` does, at a cost of what the corrections reach and not of the mask's grid: for a hand that draws.
+MaskChange mask_change(const MaskToCorrect& what, const Corrections& corrections, const CorrectOptions& options,
+                       const Work& work = {});
+
+/// Throws Error(invalid_input) for options out of their range.
+void check_options(const CorrectOptions& options);
+
+}  // namespace kontur

@@ -215,8 +215,9 @@ MaskChange mask_change(const MaskToCorrect& what, const Corrections& corrections
     work.report("correct", 0.3);
     made.function = std::make_shared<const SurfaceChange>(solve_change(surface, data, lengths, work));
     work.report("correct", 0.6);
-    const std::vector<VoxelSide> carried = carried_voxels(mask, surface, *made.function, work);
-    std::vector<VoxelSide> by_image;
+    made.lattice = change_lattice(surface, *made.function, work);
+    std::vector<VoxelSide> carried, by_image;
+    if (made.lattice) carried = carried_voxels(mask, surface, *made.function, *made.lattice, work);
     if (image) {
         work.report("correct", 0.7);
         ImageReachedVoxels reached =

@@ -16,6 +16,7 @@ struct MaskChange {
     CorrectReport report;
     /// Of the mask's function f0, without what slices, the image and loose pieces say voxel by voxel.
     std::shared_ptr<const SurfaceChange> function;
+    std::shared_ptr<const ChangeLattice> lattice;  ///< of that; null where it is 0
 };
 
 /// As `correct` does, at a cost of what the corrections reach and not of the mask's grid: for a hand that draws.

@@ -118,7 +118,7 @@ TEST(ExistingMesh, HasEachVoxelOnItsSideWhereverSomeChange) {
         made.push_back({n, before.values[n] ? CorrectedVoxel::removed_drawn : CorrectedVoxel::added_drawn});
         after.values[n] ^= 1;
     }
-    const CorrectedMesh corrected = existing.corrected({}, made);
+    const CorrectedMesh corrected = existing.corrected(nullptr, made);
     EXPECT_TRUE(topology(corrected.mesh).closed && topology(corrected.mesh).oriented);
     EXPECT_EQ(voxelize_mesh(corrected.mesh, grid).mask.values, after.values);
     ASSERT_EQ(corrected.made_by.size(), corrected.mesh.points.size());

@@ -104,7 +104,7 @@ TEST(CorrectedMask, ItsSurfaceIsASolidAndKnowsWhoMadeIt) {
     EXPECT_NEAR(signed_volume_mm3(mesh) / 1000, corrected.report.volume_ml, 0.1 * corrected.report.volume_ml);
     const ExistingSurface surface(mask);
     const MaskChange change = mask_change({mask, surface}, corrections, {});
-    const CorrectedMesh shown = ExistingMesh(surface).corrected(*change.function, change.voxels);
+    const CorrectedMesh shown = ExistingMesh(surface).corrected(change.lattice.get(), change.voxels);
     const TriangleMesh& fast = shown.mesh;
     const std::vector<std::uint8_t> origins = origins_of(shown.made_by);
     ASSERT_EQ(origins.size(), fast.points.size());

@@ -128,7 +128,7 @@ struct MaskEditor::Worker {
         const std::shared_ptr<const VolumeOfMask> mask = opened_mask();
         const MaskChange change =
             mask_change({mask->whole, mask->surface, image}, request.corrections, request.options, work);
-        CorrectedMesh made = mask->mesh.corrected(*change.function, change.voxels, Work{.stop = stop});
+        CorrectedMesh made = mask->mesh.corrected(change.lattice.get(), change.voxels, Work{.stop = stop});
         auto edit = std::make_shared<MaskEdit>();
         edit->report = change.report;
         edit->origins = origins_of(made.made_by);

@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace kontur {
 namespace {
 
 constexpr double kLatticeOfLength = 1.0 / 6;
+constexpr std::int64_t kBeyondGrid = 2;  ///< voxels: slopes of a surface at the border are found by them
 
 }  // namespace
 
 ChangeLattice::ChangeLattice(const ExistingSurface& surface, const SurfaceChange& change, const IndexBox& box,
-                             const Work& work) {
+                             const Work& work)
+    : box_(box) {
     const Vec3 spacing = surface.grid().spacing_mm();
     const double step = std::max(smallest(spacing), kLatticeOfLength * change.length_mm());
     for (int axis = 0; axis < 3; ++axis) {
@@ -36,6 +39,11 @@ ChangeLattice::ChangeLattice(const ExistingSurface& surface, const SurfaceChange
     }
     const std::vector<double> values = change.values(places, work);
     for (std::size_t n = 0; n < nodes.size(); ++n) values_[nodes[n]] = values[n];
+    row_most_.resize(static_cast<std::size_t>(size_.j * size_.k));
+    for (std::size_t n = 0; n < values_.size(); ++n) {
+        double& most = row_most_[n / static_cast<std::size_t>(size_.i)];
+        most = std::max(most, std::abs(values_[n]));
+    }
 }
 
 double ChangeLattice::at(const Index3& voxel) const {
@@ -61,9 +69,29 @@ ChangeLattice::Run ChangeLattice::run_from(const Index3& voxel) const {
     return {first_.i + (i + 1) * step_.i, most};
 }
 
+double ChangeLattice::most_in_row_mm(std::int64_t j, std::int64_t k) const {
+    const std::int64_t low = places_[1][static_cast<std::size_t>(j - first_.j)].low +
+                             size_.j * places_[2][static_cast<std::size_t>(k - first_.k)].low;
+    const double* most = row_most_.data() + low;
+    return std::max({most[0], most[1], most[size_.j], most[size_.j + 1]});
+}
+
 Index3 ChangeLattice::voxel_of(std::int64_t node) const {
     const Index3 at = index_at(static_cast<std::size_t>(node), size_);
     return {first_.i + at.i * step_.i, first_.j + at.j * step_.j, first_.k + at.k * step_.k};
+}
+
+std::shared_ptr<const ChangeLattice> change_lattice(const ExistingSurface& surface, const SurfaceChange& change,
+                                                    const Work& work) {
+    if (change.is_zero()) return nullptr;
+    const Index3& size = surface.grid().size;
+    const IndexBox around{{-kBeyondGrid, -kBeyondGrid, -kBeyondGrid},
+                          {size.i - 1 + kBeyondGrid, size.j - 1 + kBeyondGrid, size.k - 1 + kBeyondGrid}};
+    std::optional<IndexBox> box = index_box(grid_of(surface.grid(), around), change.box());
+    if (!box) return nullptr;
+    for (Index3* end : {&box->low, &box->high})
+        for (int axis = 0; axis < 3; ++axis) (*end)[axis] -= kBeyondGrid;
+    return std::make_shared<const ChangeLattice>(surface, change, *box, work);
 }
 
 }  // namespace kontur

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -19,14 +20,17 @@ class ChangeLattice {
 public:
     ChangeLattice(const ExistingSurface& surface, const SurfaceChange& change, const IndexBox& box, const Work& work);
 
+    const IndexBox& box() const { return box_; }
     /// At a voxel of the box.
     double at(const Index3& voxel) const;
-    /// Voxels of a row from one on between whose nodes |g| is nowhere larger than this.
+    /// Voxels of a row from one on, to the next nodes.
     struct Run {
         std::int64_t end;  ///< along i, behind the last one
-        double most_mm;
+        double most_mm;    ///< |g| is nowhere larger
     };
     Run run_from(const Index3& voxel) const;
+    /// |g| is nowhere larger in a row along i of the box.
+    double most_in_row_mm(std::int64_t j, std::int64_t k) const;
     /// Where |f0| is larger, f0 + g has f0's sign.
     double near_mm() const { return near_mm_; }
 
@@ -40,10 +44,16 @@ private:
         double part;       ///< of the way to the next one
     };
 
+    IndexBox box_;
     Index3 first_, step_, size_;
     double near_mm_ = 0;
     std::array<std::vector<Place>, 3> places_;  ///< of the voxels from the first node on, along each axis
     std::vector<double> values_;
+    std::vector<double> row_most_;  ///< the largest |g| of each row of nodes
 };
+
+/// g where it may count, in the grid and a little beyond; null where it is 0.
+std::shared_ptr<const ChangeLattice> change_lattice(const ExistingSurface& surface, const SurfaceChange& change,
+                                                    const Work& work = {});
 
 }  // namespace kontur

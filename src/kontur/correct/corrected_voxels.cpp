@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "kontur/base/parallel.h"
-#include "kontur/correct/change_lattice.h"
 #include "kontur/shape/index_box.h"
 
 namespace kontur {
@@ -62,9 +61,9 @@ void append_drawn(const CorrectedSection& section, const Grid& grid, const Index
 /// f0 + g at the voxels of a box. What g on a lattice leaves in doubt is computed by itself.
 class ChangedBox {
 public:
-    ChangedBox(const Mask& mask, const ExistingSurface& surface, const SurfaceChange& change, const IndexBox& box,
-               const Work& work)
-        : mask_(mask), surface_(surface), change_(change), box_(box), lattice_(surface, change, box, work) {}
+    ChangedBox(const Mask& mask, const ExistingSurface& surface, const SurfaceChange& change, const ChangeLattice& lattice,
+               const IndexBox& box)
+        : mask_(mask), surface_(surface), change_(change), box_(box), lattice_(lattice) {}
 
     /// Those of slice k of the box that change.
     std::vector<VoxelSide> changed_in(std::int64_t k) const {
@@ -89,6 +88,7 @@ private:
 
     void append_row(std::int64_t j, std::int64_t k, std::vector<VoxelSide>& voxels, Doubts& doubts) const {
         const double side = smallest(mask_.grid.spacing_mm());
+        if (lattice_.most_in_row_mm(j, k) < kLeastChangeVoxels * side) return;
         const IndexBox window = surface_.window_box();
         const bool is_known = j >= window.low.j && j <= window.high.j && k >= window.low.k && k <= window.high.k;
         const float* known = surface_.window_values().data();
@@ -128,7 +128,7 @@ private:
     const ExistingSurface& surface_;
     const SurfaceChange& change_;
     IndexBox box_;
-    ChangeLattice lattice_;
+    const ChangeLattice& lattice_;
 };
 
 /// What is said of a voxel, the last word counts.
@@ -147,11 +147,11 @@ CorrectedVoxel how(bool inside, bool drawn, int by) {
 }  // namespace
 
 std::vector<VoxelSide> carried_voxels(const Mask& mask, const ExistingSurface& surface, const SurfaceChange& change,
-                                      const Work& work) {
-    if (change.is_zero()) return {};
-    const std::optional<IndexBox> box = index_box(mask.grid, change.box());
+                                      const ChangeLattice& lattice, const Work& work) {
+    const Index3& size = mask.grid.size;
+    const std::optional<IndexBox> box = common_box(lattice.box(), {{0, 0, 0}, {size.i - 1, size.j - 1, size.k - 1}});
     if (!box) return {};
-    const ChangedBox values(mask, surface, change, *box, work);
+    const ChangedBox values(mask, surface, change, lattice, *box);
     std::vector<std::vector<VoxelSide>> slices(static_cast<std::size_t>(box->size().k));
     parallel_for(box->size().k, 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k) slices[static_cast<std::size_t>(k)] = values.changed_in(box->low.k + k);

@@ -6,6 +6,7 @@
 
 #include "kontur/base/work.h"
 #include "kontur/correct/change.h"
+#include "kontur/correct/change_lattice.h"
 #include "kontur/correct/corrected_section.h"
 #include "kontur/correct/existing_surface.h"
 #include "kontur/shape/index_box.h"
@@ -44,9 +45,9 @@ struct MadeVoxel {
     }
 };
 
-/// The voxels whose sides f0 + g changes, where g counts; by offset.
+/// The voxels whose sides f0 + g changes, where g counts; by offset. `lattice`: of the change.
 std::vector<VoxelSide> carried_voxels(const Mask& mask, const ExistingSurface& surface, const SurfaceChange& change,
-                                      const Work& work = {});
+                                      const ChangeLattice& lattice, const Work& work = {});
 
 /// What was drawn in the planes that move and are slices of the grid; of whole slices in a box of voxels and where the drawn
 /// outlines are.

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "kontur/base/parallel.h"
-#include "kontur/correct/change_lattice.h"
 #include "kontur/extract/cell_triangles.h"
 
 namespace kontur {
@@ -81,24 +79,18 @@ void ExistingMesh::find_cells() {
 /// One mesh. Voxels and cells have the mask's indices, which may lie beyond its grid.
 class CorrectedMeshBuilder {
 public:
-    CorrectedMeshBuilder(const ExistingMesh& existing, const SurfaceChange& change, std::span<const MadeVoxel> voxels,
+    CorrectedMeshBuilder(const ExistingMesh& existing, const ChangeLattice* change, std::span<const MadeVoxel> voxels,
                          const Work& work)
         : existing_(existing),
           grid_(existing.surface_.grid()),
           window_(existing.surface_.window_box()),
           box_(cell_box(existing.surface_, voxels)),
           voxels_(voxels),
+          change_(change),
           work_(work),
           to_index_(grid_.index_to_mm.inverse()),
           is_mirrored_(grid_.index_to_mm.determinant() < 0),
           least_(least_value(existing.surface_)) {
-        if (!change.is_zero()) changed_ = index_box(existing.surface_.window(), change.box());
-        if (changed_) {
-            const Index3& first = window_.low;
-            for (Index3* end : {&changed_->low, &changed_->high})
-                *end = {end->i + first.i, end->j + first.j, end->k + first.k};
-            lattice_.emplace(existing.surface_, change, *changed_, work);
-        }
         for (Slice& slice : slices_) slice.points.resize(static_cast<std::size_t>(3 * box_.size().i * box_.size().j));
         find_rows();
     }
@@ -165,8 +157,8 @@ private:
         const MadeVoxel* changed = changed_at(v);
         const bool inside = changed ? changed->is_inside() : before > 0;
         float after = before;
-        if (changed_ && changed_->contains(v) && std::abs(static_cast<double>(before)) <= lattice_->near_mm())
-            after += static_cast<float>(lattice_->at(v));
+        if (change_ && change_->box().contains(v) && std::abs(static_cast<double>(before)) <= change_->near_mm())
+            after += static_cast<float>(change_->at(v));
         return inside ? std::max(after, least_) : std::min(after, -least_);
     }
 
@@ -277,19 +269,18 @@ private:
     const Grid& grid_;
     IndexBox window_, box_;
     std::span<const MadeVoxel> voxels_;
+    const ChangeLattice* change_;
     const Work& work_;
     Affine3 to_index_;
     bool is_mirrored_;
     float least_;
-    std::optional<IndexBox> changed_;  ///< where g counts
-    std::optional<ChangeLattice> lattice_;
     std::vector<std::size_t> row_start_;  ///< in `voxels_`, by row of the box
     std::array<Slice, 2> slices_;
     std::vector<Edge> edges_;  ///< one for each point
     CorrectedMesh made_;
 };
 
-CorrectedMesh ExistingMesh::corrected(const SurfaceChange& change, std::span<const MadeVoxel> voxels,
+CorrectedMesh ExistingMesh::corrected(const ChangeLattice* change, std::span<const MadeVoxel> voxels,
                                       const Work& work) const {
     return CorrectedMeshBuilder(*this, change, voxels, work).build();
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kontur/base/work.h"
-#include "kontur/correct/change.h"
+#include "kontur/correct/change_lattice.h"
 #include "kontur/correct/corrected_voxels.h"
 #include "kontur/correct/existing_surface.h"
 #include "kontur/shape/mesh.h"
@@ -29,9 +29,9 @@ public:
     /// Where f0 + g vanishes, between voxels: closed, oriented outward, manifold. Points lie on the lines between
     /// neighbouring voxel centres, so that each centre is on the side that the mask with `voxels` changed says, also where g
     /// says otherwise; where the object reaches the grid's border, it ends half a voxel beyond. Normals are the downhill
-    /// gradient. `voxels`: by offset.
-    CorrectedMesh corrected(const SurfaceChange& change, std::span<const MadeVoxel> voxels, const Work& work = {}) const;
-    TriangleMesh mesh(const Work& work = {}) const { return corrected({}, {}, work).mesh; }
+    /// gradient. `change`: g, or null where it is 0. `voxels`: by offset.
+    CorrectedMesh corrected(const ChangeLattice* change, std::span<const MadeVoxel> voxels, const Work& work = {}) const;
+    TriangleMesh mesh(const Work& work = {}) const { return corrected(nullptr, {}, work).mesh; }
 
 private:
     friend class CorrectedMeshBuilder;

@@ -16,7 +16,7 @@ namespace kontur {
 class ExistingSurface {
 public:
     /// Throws as check_mask does, and Error(invalid_input) for a mask without a voxel inside. The cost is the size of the
-    /// object's box, grown by as far as a correction may reach.
+    /// object's box, grown by a correction's length.
     explicit ExistingSurface(const Mask& mask, const Work& work = {});
 
     /// Radius of the largest ball that fits into the object, mm.

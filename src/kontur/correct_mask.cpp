@@ -1,31 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/correct_mask.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "kontur/base/counted.h"
-#include "kontur/correct/change.h"
-#include "kontur/mask_change.h"
+#include "kontur/correct/mask_change.h"
 
 namespace kontur {
-
-std::string_view name(CorrectionKind kind) noexcept {
-    switch (kind) {
-        case CorrectionKind::outline:
-            return "outline";
-        case CorrectionKind::piece:
-            return "piece";
-        case CorrectionKind::empty:
-            return "empty";
-        case CorrectionKind::confirmed:
-            break;
-    }
-    return "confirmed";
-}
 
 CorrectedMask correct(const Mask& mask, const Corrections& corrections, const CorrectOptions& options, const Work& work) {
     check_options(options);
@@ -47,16 +27,6 @@ CorrectedMask correct(const MaskToCorrect& what, const Corrections& corrections,
         corrected.origin[voxel.offset] = static_cast<std::uint8_t>(voxel.how);
     }
     return corrected;
-}
-
-std::string sentence(const CorrectReport& report) {
-    const std::int64_t drawn = report.added_drawn + report.removed_drawn,
-                       carried = report.added_carried + report.removed_carried + report.added_image + report.removed_image;
-    if (drawn + carried == 0) return "nothing changed: the corrections repeat the mask";
-    const double more = report.volume_ml - report.volume_before_ml;
-    return fmt::format("{} changed, {} of them beside the drawn planes; {:.1f} ml {}, {:.1f} ml in all",
-                       counted(static_cast<std::size_t>(drawn + carried), "voxel"), carried, std::abs(more),
-                       more < 0 ? "less" : "more", report.volume_ml);
 }
 
 }  // namespace kontur

@@ -7,10 +7,10 @@
 #include <random>
 
 #include "kontur/correct/existing_mesh.h"
+#include "kontur/correct/mask_change.h"
 #include "kontur/extract/mesh_mask.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/image.h"
-#include "kontur/mask_change.h"
 #include "support/expect_error.h"
 #include "support/random.h"
 #include "support/temporary_folder.h"

@@ -11,7 +11,7 @@
 #include "kontur/base/error.h"
 #include "kontur/correct/corrected_section.h"
 #include "kontur/correct/existing_mesh.h"
-#include "kontur/mask_change.h"
+#include "kontur/correct/mask_change.h"
 #include "viewer/surfaces/corrected_mask.h"
 
 namespace kontur::viewer {

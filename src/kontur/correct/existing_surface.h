@@ -57,6 +57,13 @@ private:
     double inscribed_radius_mm_ = 0, radius_mm_ = 0;
 };
 
+/// What is corrected, with a surface of the mask found before, and the image that shows the object, if there is one.
+struct MaskToCorrect {
+    const Mask& mask;
+    const ExistingSurface& surface;
+    const Image* image = nullptr;
+};
+
 /// f0 at the window's voxels where smoothing moves no curved surface, with the same signs: 2 f0 less f0 smoothed once more.
 /// By f0 itself a ball of 5 voxels' radius loses a twelfth of its volume, by this a fortieth. Corrections by it come out
 /// worse (bench/correct.py: Dice .9374 for .9401).

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/correct/correct_report.h"
 #include "kontur/correct/corrected_voxels.h"
-#include "kontur/correct_mask.h"
+#include "kontur/correct/corrections.h"
+#include "kontur/correct/existing_surface.h"
 
 namespace kontur {
 
@@ -22,8 +24,5 @@ struct MaskChange {
 /// As `correct` does, at a cost of what the corrections reach and not of the mask's grid: for a hand that draws.
 MaskChange mask_change(const MaskToCorrect& what, const Corrections& corrections, const CorrectOptions& options,
                        const Work& work = {});
-
-/// Throws Error(invalid_input) for options out of their range.
-void check_options(const CorrectOptions& options);
 
 }  // namespace kontur

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/mask_change.h"
+#include "kontur/correct/mask_change.h"
 
 #include <fmt/format.h>
 
@@ -20,8 +20,6 @@
 
 namespace kontur {
 namespace {
-
-constexpr double kLeastReach = 0.25, kMostReach = 4;
 
 CorrectionKind kind_of(const CorrectedSection& section) {
     if (!section.redrawn) return CorrectionKind::piece;
@@ -192,12 +190,6 @@ void count(const ExistingSurface& surface, MaskChange& change) {
 }
 
 }  // namespace
-
-void check_options(const CorrectOptions& options) {
-    if (!(options.reach >= kLeastReach && options.reach <= kMostReach))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the reach is {}, not between {} and {}", options.reach, kLeastReach, kMostReach));
-}
 
 MaskChange mask_change(const MaskToCorrect& what, const Corrections& corrections, const CorrectOptions& options,
                        const Work& work) {

@@ -35,4 +35,8 @@ Json end_to_end(const PhantomCase& phantom, int repeat);
 /// previews are from the finished surfaces.
 Json editing(const PhantomCase& phantom, int repeat);
 
+/// Of the body's mask: until it can be corrected, from an edit to the corrected surface, and the same where nothing is kept
+/// from one edit to the next.
+Json correcting(const PhantomCase& phantom, int repeat);
+
 }  // namespace kontur::bench

@@ -18,6 +18,7 @@ struct Options {
     int repeat = 5;
     bool growth = false;
     std::size_t most = 1000000;
+    std::string only;  ///< an experiment's name; empty: all
     std::string json = "/dev/stdout";
 };
 
@@ -26,11 +27,9 @@ struct Experiment {
     Json (*run)(const PhantomCase& phantom, int repeat);
     bool by_hand;  ///< also on the cases drawn by hand
 };
-constexpr Experiment kExperiments[] = {{"end_to_end", end_to_end, true},
-                                       {"editing", editing, true},
-                                       {"solving", solving, false},
-                                       {"voxelizing", voxelizing, true},
-                                       {"reduction", reduction, true}};
+constexpr Experiment kExperiments[] = {{"end_to_end", end_to_end, true},  {"editing", editing, true},
+                                       {"correcting", correcting, false}, {"solving", solving, false},
+                                       {"voxelizing", voxelizing, true},  {"reduction", reduction, true}};
 
 /// Every eighth point of each contour.
 PhantomCase thinned(PhantomCase phantom) {
@@ -52,6 +51,7 @@ Json run(const Options& options) {
     Json results{{"machine", describe_machine()}, {"quick", options.quick}};
     const std::vector<PhantomCase> all = cases(options.quick);
     for (const Experiment& experiment : kExperiments) {
+        if (!options.only.empty() && options.only != experiment.name) continue;
         Json& rows = results[experiment.name] = Json::array();
         for (const PhantomCase& phantom : all) {
             if (phantom.name.ends_with("_hand") && !experiment.by_hand) continue;
@@ -86,6 +86,9 @@ int main(int count, char** arguments) {
     app.add_flag("--growth", options.growth,
                  "instead, how time and memory to solve grow from 1,000 to a million constraints; some minutes, 3 GB");
     app.add_option("--most", options.most, "with --growth, the largest system")->capture_default_str();
+    std::vector<std::string> names;
+    for (const Experiment& experiment : kExperiments) names.emplace_back(experiment.name);
+    app.add_option("--only", options.only, "one experiment")->check(CLI::IsMember(names));
     app.add_option("--json", options.json, "file to write to instead of standard output");
     CLI11_PARSE(app, count, arguments);
     if (options.quick) options.repeat = 1;

@@ -61,6 +61,11 @@ def test_a_preview_has_the_time_of_each_stage(results):
         assert 0 < sum(row["stages_s"].values()) <= row["median_s"]
 
 
+def test_a_correction_costs_less_where_the_mask_is_known(results):
+    rows = {row["what"]: row for row in results["correcting"]}
+    assert list(rows) == ["opened", "edited", "anew"] and min(row["cpu_s"] for row in rows.values()) > 0
+
+
 def test_full_quality_is_what_the_others_are_compared_with(results):
     assert all((row["jaccard"] == 1) == (row["quality"] == 1) for row in results["reduction"])
 
@@ -78,7 +83,7 @@ def test_the_tables_show_every_experiment(json_file, results):
 
 
 def test_a_document_is_filled_between_its_markers_and_stays_as_it_is_elsewhere(json_file, tmp_path):
-    names = ("machine", "solving", "voxelizing", "reduction", "end_to_end", "stages", "editing")
+    names = ("machine", "solving", "voxelizing", "reduction", "end_to_end", "stages", "editing", "correcting")
     document = tmp_path / "performance.md"
     document.write_text("".join(f"before {n}\n<!-- begin {n} -->\nold\n<!-- end {n} -->\nafter\n" for n in names))
     for _ in range(2):
@@ -92,6 +97,14 @@ def test_the_published_tables_are_made_from_the_published_results(tmp_path):
     copy = tmp_path / "performance.md"
     copy.write_text(published)
     subprocess.run([sys.executable, TABLES, TABLES.with_name("results") / "performance.json", copy], check=True)
+    assert copy.read_text() == published
+
+
+def test_the_table_of_corrections_is_made_from_the_published_results(tmp_path):
+    published = (DOCS / "correct.md").read_text()
+    copy = tmp_path / "correct.md"
+    copy.write_text(published)
+    subprocess.run([sys.executable, TABLES, TABLES.with_name("results") / "correcting.json", copy], check=True)
     assert copy.read_text() == published
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Markdown tables from kontur_bench's JSON, beside the figures of Heckel, Konrad & Peitgen 2010.
 
-Usage: bench/tables.py RESULTS.json [DOCUMENT.md]. Without a document the tables are printed; with one, each replaces what
-stands between its markers <!-- begin NAME --> and <!-- end NAME --> there.
+Usage: bench/tables.py RESULTS.json [DOCUMENT.md]. Without a document the tables are printed; with one, each that has markers
+<!-- begin NAME --> and <!-- end NAME --> there replaces what stands between them.
 """
 import json
 import re
@@ -166,6 +166,15 @@ def editing(results):
     return table(header, rows)
 
 
+WHAT_CORRECTING = {"opened": "mask opened", "edited": "edit to surface", "anew": "edit to surface, nothing kept"}
+
+
+def correcting(results):
+    rows = [[case_name(row["case"]), WHAT_CORRECTING[row["what"]], count(row["voxels"]), seconds(row["seconds"]),
+             seconds(row["cpu_s"])] for row in results["correcting"]]
+    return table(["mask", "", "voxels", "seconds", "CPU s"], rows)
+
+
 def stages(results):
     rows = []
     for row in (row for row in results["end_to_end"] if row["pipeline"] == "default" and not by_hand(row["case"])):
@@ -179,7 +188,9 @@ def unique(rows, key):
     return list(dict.fromkeys(row[key] for row in rows))
 
 
-TABLES = {f.__name__: f for f in (machine, solving, voxelizing, reduction, end_to_end, stages, editing)}
+TABLES = {f.__name__: f for f in (machine, solving, voxelizing, reduction, end_to_end, stages, editing, correcting)}
+# What of the results a table is made of, where its name does not say it.
+SOURCES = {"stages": "end_to_end"}
 
 
 def filled(document, results, tables):
@@ -196,11 +207,16 @@ def filled(document, results, tables):
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         results = json.load(file)
+    tables = {name: make for name, make in TABLES.items() if SOURCES.get(name, name) in results}
     if len(sys.argv) < 3:
-        print("\n\n".join(make(results) for make in TABLES.values()))
+        print("\n\n".join(make(results) for make in tables.values()))
         return
     with open(sys.argv[2], encoding="utf-8") as file:
-        document = filled(file.read(), results, TABLES)
+        document = file.read()
+    shown = {name: make for name, make in tables.items() if f"<!-- begin {name} -->" in document}
+    if not shown:
+        raise SystemExit(f"error: {sys.argv[2]} has no marker <!-- begin NAME --> of {', '.join(tables)}")
+    document = filled(document, results, shown)
     with open(sys.argv[2], "w", encoding="utf-8") as file:
         file.write(document)
 

@@ -13,7 +13,8 @@ namespace kontur {
 namespace {
 
 /// Of four voxels that differ in j (bit 0) and k (bit 1).
-unsigned inside_of(const std::array<const float*, 4>& rows, std::int64_t i) {
+template <class Value>
+unsigned inside_of(const std::array<const Value*, 4>& rows, std::int64_t i) {
     unsigned bits = 0;
     for (unsigned n = 0; n < 4; ++n) bits |= static_cast<unsigned>(rows[n][i] > 0) << n;
     return bits;
@@ -21,6 +22,17 @@ unsigned inside_of(const std::array<const float*, 4>& rows, std::int64_t i) {
 
 /// Room for the bits of the voxels beside them along i.
 unsigned spread(unsigned bits) { return (bits & 1) | (bits & 2) << 1 | (bits & 4) << 2 | (bits & 8) << 3; }
+
+/// Calls `visit(i, inside)` for each cell of a row that has corners on both sides. `rows`: of `count` voxels each.
+template <class Value, class Visit>
+void for_each_cut_cell(const std::array<const Value*, 4>& rows, std::int64_t count, const Visit& visit) {
+    unsigned low = inside_of(rows, 0);
+    for (std::int64_t i = 0; i + 1 < count; ++i) {
+        const unsigned high = inside_of(rows, i + 1), inside = spread(low) | spread(high) << 1;
+        if (inside != 0 && inside != 255) visit(i, inside);
+        low = high;
+    }
+}
 
 /// Who counts where two voxels beside a point were changed.
 int rank(CorrectedVoxel how) {
@@ -65,13 +77,9 @@ void ExistingMesh::find_cells() {
             if (j + 1 == size.j || k + 1 == size.k) continue;
             const float* row = values_.data() + window.offset(0, j, k);
             const std::array rows{row, row + size.i, row + size.i * size.j, row + size.i * size.j + size.i};
-            unsigned low = inside_of(rows, 0);
-            for (std::int64_t i = 0; i + 1 < size.i; ++i) {
-                const unsigned high = inside_of(rows, i + 1), inside = spread(low) | spread(high) << 1;
-                if (inside != 0 && inside != 255)
-                    cells_.push_back({static_cast<std::int32_t>(i), static_cast<std::uint8_t>(inside)});
-                low = high;
-            }
+            for_each_cut_cell(rows, size.i, [&](std::int64_t i, unsigned inside) {
+                cells_.push_back({static_cast<std::int32_t>(i), static_cast<std::uint8_t>(inside)});
+            });
         }
     row_start_.push_back(cells_.size());
 }
@@ -91,7 +99,12 @@ public:
           to_index_(grid_.index_to_mm.inverse()),
           is_mirrored_(grid_.index_to_mm.determinant() < 0),
           least_(least_value(existing.surface_)) {
-        for (Slice& slice : slices_) slice.points.resize(static_cast<std::size_t>(3 * box_.size().i * box_.size().j));
+        const Index3 size = box_.size();
+        for (Slice& slice : slices_) {
+            slice.points.resize(static_cast<std::size_t>(3 * size.i * size.j));
+            slice.sides.resize(static_cast<std::size_t>(size.i * size.j));
+            slice.known_for.assign(static_cast<std::size_t>(size.j), box_.low.k - 1);
+        }
         find_rows();
     }
 
@@ -147,11 +160,6 @@ private:
         return existing_.values_[existing_.surface_.window().offset(v.i - low.i, v.j - low.j, v.k - low.k)];
     }
 
-    bool is_inside(const Index3& v) const {
-        const MadeVoxel* changed = changed_at(v);
-        return changed ? changed->is_inside() : value_before(v) > 0;
-    }
-
     float value(const Index3& v) const {
         const float before = value_before(v);
         const MadeVoxel* changed = changed_at(v);
@@ -175,22 +183,22 @@ private:
             for (const Cell& cell : cells_before(j, k)) add_cell({cell.i + window_.low.i, j, k}, cell.inside);
             return;
         }
-        std::vector<std::int64_t> cells;
-        for (const Cell& cell : cells_before(j, k)) cells.push_back(cell.i + window_.low.i);
-        for (const auto& row : rows)
-            for (const MadeVoxel& voxel : row) {
-                const std::int64_t i = index_at(voxel.offset, grid_.size).i;
-                cells.insert(cells.end(), {i - 1, i});
-            }
-        std::ranges::sort(cells);
-        cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-        for (const std::int64_t i : cells) {
-            unsigned inside = 0;
-            for (int corner = 0; corner < 8; ++corner)
-                inside |= static_cast<unsigned>(is_inside({i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)}))
-                          << corner;
-            if (inside != 0 && inside != 255) add_cell({i, j, k}, inside);
-        }
+        for_each_cut_cell(std::array{sides_of(j, k), sides_of(j + 1, k), sides_of(j, k + 1), sides_of(j + 1, k + 1)},
+                          box_.size().i, [&](std::int64_t i, unsigned inside) {
+                              add_cell({i + box_.low.i, j, k}, inside);
+                          });
+    }
+
+    /// Whether the voxels of a row of the box are inside, found once for the layers on both sides of it.
+    const std::uint8_t* sides_of(std::int64_t j, std::int64_t k) {
+        Slice& slice = slice_of(k);
+        const std::int64_t size = box_.size().i, row = j - box_.low.j;
+        std::uint8_t* sides = slice.sides.data() + row * size;
+        if (std::exchange(slice.known_for[static_cast<std::size_t>(row)], k) == k) return sides;
+        for (std::int64_t i = 0; i < size; ++i) sides[i] = value_before({i + box_.low.i, j, k}) > 0;
+        for (const MadeVoxel& voxel : changed_in(j, k))
+            sides[index_at(voxel.offset, grid_.size).i - box_.low.i] = voxel.is_inside();
+        return sides;
     }
 
     void add_cell(const Index3& cell, unsigned inside) {
@@ -262,6 +270,8 @@ private:
     struct Slice {
         std::vector<std::uint32_t> points;
         std::size_t earlier_points = 0;
+        std::vector<std::uint8_t> sides;      ///< sides_of the rows that
+        std::vector<std::int64_t> known_for;  ///< ... were found in this slice
     };
     Slice& slice_of(std::int64_t k) { return slices_[static_cast<std::size_t>(k & 1)]; }
 

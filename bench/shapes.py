@@ -35,7 +35,7 @@ VOXELS, MARGIN = 56, 0.25  # across a solid; beyond it, of its extent
 LATTICE = 160  # places across a solid where a section is looked for
 SMALLEST = 5e-4  # section that is drawn, of the size's square
 FIELDS = ["kind", "size_mm", "planes", "contours", "points", "dice", "truth_ml", "volume_ml", "low_ml", "high_ml", "wrong", "island",
-          "named", "sentences", "sentence", "seconds", "ball_seconds"]
+          "named", "sentences", "sentence", "warnings", "warning", "seconds", "ball_seconds"]
 DEEP = 0.005  # of the size: places so near to the solid's surface are neither right nor wrong
 WRONG, RIGHT, RIGHT_ISLAND = 0.1, 0.02, 0.005  # of a section
 
@@ -79,11 +79,15 @@ def oblique(solid, count, random):
 def drawn(solid, size_mm, way, count, random):
     """(planes, the ContourSet in them)."""
     planes = {"parallel": parallel, "orthogonal": orthogonal, "oblique": oblique}[way](solid, count, random)
+    return planes, exact_sections(solid, size_mm, planes)
+
+
+def exact_sections(solid, size_mm, planes):
     step = size_mm / LATTICE
     lines = [line for plane in planes for line, _ in phantom_sections.closed_lines(solid, plane, step, SMALLEST * size_mm**2)]
     length = sum(np.linalg.norm(np.diff(line, axis=0, append=line[:1]), axis=1).sum() for line in lines)
     points = max(round(length / (size_mm / 60)), 12 * len(lines))
-    return planes, phantom_sections.sections(solid, planes, points, step, SMALLEST * size_mm**2)
+    return phantom_sections.sections(solid, planes, points, step, SMALLEST * size_mm**2)
 
 
 def grid_around(solid):
@@ -174,6 +178,7 @@ def measured(kind, size_mm, way, solid, planes, contours):
             "wrong": f"{wrong:.4f}", "island": f"{island:.4f}",
             "named": f"{check.largest_wrong_share:.4f}", "sentences": len(check.sentences),
             "sentence": check.sentences[0] if check.sentences else "",
+            "warnings": len(made.report.warnings), "warning": made.report.warnings[0] if made.report.warnings else "",
             "seconds": f"{seconds:.3f}", "ball_seconds": f"{ball_seconds(9, near):.3f}"}
 
 

@@ -21,7 +21,8 @@ ContourSet rings(const std::vector<double>& heights, double radius = 5) {
 
 std::vector<Bound> between(const ContourSet& set) {
     const DrawnPlanes planes(set);
-    return between_bounds(drawn_regions(planes));
+    const std::vector<DrawnRegion> regions = drawn_regions(planes);
+    return between_bounds(regions, tube_ways(regions));
 }
 
 TEST(BetweenBounds, ATubeGoesOnHalfWayBetweenItsRings) {
@@ -52,6 +53,19 @@ TEST(BetweenBounds, AnArchFollowsTheCurveOfItsRings) {
         }
     ASSERT_GT(count, 15u);
     EXPECT_NEAR(norm(middle / static_cast<double>(count)), 40, 0.3) << "a chord's middle lies at 38";
+}
+
+TEST(BetweenBounds, AWideStepOfAnArchFollowsItsCurve) {
+    ContourSet set;
+    for (const double angle : {0.0, M_PI / 3})
+        set.contours.push_back(test::circle(
+            make_plane({30 * std::cos(angle), 0, 30 * std::sin(angle)}, {-std::sin(angle), 0, std::cos(angle)}), 5, 40));
+    const DrawnPlanes planes(set);
+    const std::vector<TubeWay> ways = tube_ways(drawn_regions(planes));
+    ASSERT_EQ(ways.size(), 1u);
+    for (const Vec3& place : ways[0].places) EXPECT_NEAR(norm(place), 30, 0.5) << "a chord's middle lies at 26";
+    EXPECT_NEAR(ways[0].distance_mm({0, 0, 0}), 30, 0.6);
+    EXPECT_NEAR(ways[0].distance_mm(ways[0].middle()), 0, 1e-12);
 }
 
 TEST(BetweenBounds, AreNoneInAnOrdinaryStack) {

@@ -186,6 +186,31 @@ TEST(PlaneBounds, KeepAwayFromWhereOtherPlanesShowTheObject) {
         }
 }
 
+TEST(PlaneBounds, SayNothingOfATubeBetweenRingsOfOtherPlanes) {
+    // Two rings of a turn of a vessel; the plane half-way between them shows the next turn alone.
+    ContourSet set;
+    for (const Vec3& middle : {Vec3{}, Vec3{28, 0, 0}, Vec3{14, 40, 0}})
+        set.contours.push_back(test::circle(make_plane(middle, {1, 0, 0}), 5, 40));
+    const DrawnPlanes planes(set);
+    const std::vector<DrawnRegion> regions = drawn_regions(planes);
+    const auto in_the_tube = [](const std::vector<Bound>& bounds) {
+        return std::ranges::count_if(bounds,
+                                     [](const Bound& bound) { return std::hypot(bound.position.y, bound.position.z) < 5; });
+    };
+    EXPECT_GT(in_the_tube(plane_bounds(planes, regions, 2)), 2);
+    std::vector<TubeWay> ways = tube_ways(regions);
+    ASSERT_EQ(ways.size(), 1u);
+    const std::vector<Bound> bounds = plane_bounds(planes, regions, 2, ways);
+    EXPECT_EQ(in_the_tube(bounds), 0);
+    for (const Bound& bound : bounds)
+        if (bound.most_mm < 0 && bound.position.y < 0 && std::abs(bound.position.z) < 9) {
+            const double from_axis = std::hypot(bound.position.y, bound.position.z);
+            EXPECT_GE(bound.most_mm, -0.25 * (from_axis - 5) - 0.01);
+        }
+    ways[0].length_mm = 100;  // the ring is near beside it: the plane was looked at there
+    EXPECT_GT(in_the_tube(plane_bounds(planes, regions, 2, ways)), 2);
+}
+
 TEST(GroupedPlaces, FindThoseThatLookingAtEachOneFinds) {
     std::mt19937 random = test::random_of_this_test();
     std::uniform_real_distribution<double> number(-10, 10);

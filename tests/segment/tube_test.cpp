@@ -98,6 +98,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Tube{"Helix", 4, 19, 0.94,
                          [](double t) {
                              return Vec3{25 * std::cos(4 * M_PI * t), 25 * std::sin(4 * M_PI * t), 60 * t};
+                         }},
+                    // Each ring's plane cuts the next turn between two of its rings, 60 degrees apart.
+                    Tube{"Helix6RadiiApart", 4, 13, 0.93,
+                         [](double t) {
+                             return Vec3{25 * std::cos(4 * M_PI * t), 25 * std::sin(4 * M_PI * t), 60 * t};
                          }}),
     [](const auto& info) { return info.param.name; });
 

@@ -14,6 +14,7 @@ namespace kontur {
 
 Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
     const std::vector<DrawnRegion> regions = drawn_regions(planes, work);
+    const std::vector<TubeWay> ways = tube_ways(regions);
     struct RegionBounds {
         std::vector<Bound> bounds[5];
         bool is_guess[2] = {};
@@ -21,7 +22,7 @@ Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
     std::vector<RegionBounds> found(regions.size());
     parallel_for(static_cast<std::int64_t>(regions.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
-            found[r].bounds[0] = plane_bounds(planes, regions, r);
+            found[r].bounds[0] = plane_bounds(planes, regions, r, ways);
             found[r].bounds[1] = end_bounds(planes, regions, r, 1, found[r].is_guess[0]);
             found[r].bounds[2] = end_bounds(planes, regions, r, -1, found[r].is_guess[1]);
             found[r].bounds[3] = wall_bounds(planes, regions, r, 1);
@@ -38,7 +39,7 @@ Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
                             "object there is a guess from its width",
                             regions[r].section.contours.front() + 1));
     }
-    const std::vector<Bound> between = between_bounds(regions);
+    const std::vector<Bound> between = between_bounds(regions, ways);
     result.bounds.insert(result.bounds.end(), between.begin(), between.end());
     for (const Plane& empty : planes.set.empty_planes) {
         const std::vector<Bound> some = empty_plane_bounds(planes, regions, empty);

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kInside = 0.05;       // of how deep a place lies inside: the surface may pass close above it
 constexpr double kInsideNoise = 0.03;  // of the same
+constexpr double kHidden = 0.5;        // of a tube's way: what is nearer to the plane's lines was seen
+constexpr double kWall = 0.5;          // of a tube's radius: so near to its way's surface nothing is sure
 constexpr double kSurelyNear = 0.25;   // of the distance to the lines: what others show nearer than that decides
 
 /// How far a place is known to lie outside, and how much of that is to be believed.
@@ -61,12 +63,16 @@ private:
 
 class PlaneBounds {
 public:
-    PlaneBounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, std::size_t index)
+    PlaneBounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, std::size_t index,
+                const std::vector<TubeWay>& ways)
         : image_(planes.image),
           ball_(planes.ball),
           regions_(regions),
           own_(regions[index]),
-          normal_(own_.section.plane.normal) {}
+          normal_(own_.section.plane.normal) {
+        for (const TubeWay& way : ways)
+            if (way.from.region != index && way.to.region != index) ways_.push_back(&way);
+    }
 
     std::vector<Bound> find() const {
         const Plane& plane = own_.section.plane;
@@ -115,7 +121,7 @@ private:
         if (clear < step_mm / 4) return;
         const Vec3 place = own_.section.plane.from_uv(at);
         if (is_beyond_cut(place)) return;
-        const Outside outside = outside_of(place, clear);
+        const Outside outside = beside_tubes(place, clear, outside_of(place, clear));
         if (outside.belief >= kLeastBelief)
             bounds.push_back(outside_bound(place, outside.distance_mm, step_mm, outside.belief));
     }
@@ -169,6 +175,19 @@ private:
         return {nearest, 1 - shown_before * shown_behind};
     }
 
+    /// The same where tubes of other planes pass near the place.
+    Outside beside_tubes(const Vec3& place, double clear, Outside outside) const {
+        for (const TubeWay* const way : ways_) {
+            const double hides = way->belief * smooth_step(kHidden, 2 * kHidden, clear / way->length_mm);
+            if (hides == 0) continue;
+            const double apart = way->distance_mm(place) - way->radius_mm();
+            if (apart >= outside.distance_mm) continue;
+            outside.distance_mm += hides * (std::max(apart, 0.0) - outside.distance_mm);
+            outside.belief *= 1 - hides * (1 - smooth_step(0, kWall * way->radius_mm(), apart));
+        }
+        return outside;
+    }
+
     static double surely(double share_of_clear) { return 1 - smooth_step(kSurelyNear, 1, share_of_clear); }
 
     struct Near {
@@ -194,12 +213,14 @@ private:
     const std::vector<DrawnRegion>& regions_;
     const DrawnRegion& own_;
     Vec3 normal_;
+    std::vector<const TubeWay*> ways_;  ///< of other planes
 };
 
 }  // namespace
 
-std::vector<Bound> plane_bounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, std::size_t region) {
-    return PlaneBounds(planes, regions, region).find();
+std::vector<Bound> plane_bounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, std::size_t region,
+                                const std::vector<TubeWay>& ways) {
+    return PlaneBounds(planes, regions, region, ways).find();
 }
 
 }  // namespace kontur

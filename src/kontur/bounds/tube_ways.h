@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kontur/bounds/drawn_regions.h"
+
+namespace kontur {
+
+/// What one outline of a plane encloses.
+struct RegionPart {
+    std::size_t region;
+    Vec3 center;
+    double radius_mm;  ///< of the circle with its area
+    std::vector<Probe> probes;
+};
+
+/// The way of a tube between two of its rings: a cubic curve that leaves both planes at right angles where these are tilted
+/// against each other, else a straight one.
+struct TubeWay {
+    RegionPart from, to;
+    Vec3 leaves, enters;         ///< the planes' normals, unit, along the way
+    double length_mm;            ///< between the centres
+    double belief;               ///< how surely both rings are of one tube, above kLeastBelief
+    std::array<Vec3, 9> places;  ///< at even parameters, from the first centre to the second
+
+    double radius_mm() const { return 0.5 * (from.radius_mm + to.radius_mm); }
+    const Vec3& middle() const { return places[places.size() / 2]; }
+
+    /// From a place to the curve.
+    double distance_mm(const Vec3& place) const;
+};
+
+/// Two sections are joined that are each the nearest one ahead of the other, within 45 degrees of both normals and three
+/// radii or more away. That fades out where they are 8 to 10 radii apart or two to three times as far as the ones before
+/// them: two bodies one above the other are not joined.
+std::vector<TubeWay> tube_ways(const std::vector<DrawnRegion>& regions);
+
+}  // namespace kontur

@@ -115,7 +115,10 @@ def is_made(made, places):
     mask = ndimage.binary_dilation(np.asarray(made.mask.values) > 0, np.ones((3, 3, 3)))
     index = np.rint((places - grid.index_to_mm[:3, 3]) @ np.linalg.inv(grid.index_to_mm[:3, :3]).T).astype(int)
     index = np.clip(index, 0, np.array(grid.size) - 1)
-    return (np.asarray(made.function.values(places, threads=1)) > 0) & mask[index[:, 2], index[:, 1], index[:, 0]]
+    is_in = mask[index[:, 2], index[:, 1], index[:, 0]]
+    if is_in.any():
+        is_in[is_in] = np.asarray(made.function.values(places[is_in], threads=1)) > 0
+    return is_in
 
 
 def worst_section(solid, planes, made, size_mm):

@@ -211,6 +211,26 @@ TEST(PlaneBounds, SayNothingOfATubeBetweenRingsOfOtherPlanes) {
     EXPECT_GT(in_the_tube(plane_bounds(planes, regions, 2, ways)), 2);
 }
 
+std::vector<std::string> notes_of(const ContourSet& set) { return find_bounds(DrawnPlanes(set)).notes; }
+
+TEST(WideGaps, AreSpokenOfWhereOneGapIsMuchWiderThanThoseBesideIt) {
+    const std::vector<std::string> notes = notes_of(stack({0, 3, 6, 9, 18, 21, 24, 27}));
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(
+        notes[0],
+        "contours 4 and 5 lie 9 mm apart, 3.0 times as far as the planes before and after them; an empty plane between "
+        "them would say that they are two bodies, a contour that they are one");
+}
+
+TEST(WideGaps, AreNoneInAnEvenOrGrowingStackNorWhereTheDrawingSaysMore) {
+    EXPECT_TRUE(notes_of(stack({0, 3, 6, 9, 12, 15, 18})).empty());
+    EXPECT_TRUE(notes_of(stack({0, 3, 6, 9, 18, 27, 36})).empty());
+    EXPECT_TRUE(notes_of(stack({0, 3, 6, 9, 16, 19, 22, 25})).empty()) << "2.3 times";
+    ContourSet parted = stack({0, 3, 6, 9, 18, 21, 24, 27});
+    parted.empty_planes.push_back(make_plane(13.0 * kNormal, kNormal));
+    EXPECT_TRUE(notes_of(parted).empty());
+}
+
 TEST(GroupedPlaces, FindThoseThatLookingAtEachOneFinds) {
     std::mt19937 random = test::random_of_this_test();
     std::uniform_real_distribution<double> number(-10, 10);

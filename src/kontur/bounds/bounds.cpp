@@ -9,6 +9,7 @@
 #include "kontur/bounds/end_bounds.h"
 #include "kontur/bounds/plane_bounds.h"
 #include "kontur/bounds/wall_bounds.h"
+#include "kontur/bounds/wide_gaps.h"
 
 namespace kontur {
 
@@ -39,6 +40,7 @@ Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
                             "object there is a guess from its width",
                             regions[r].section.contours.front() + 1));
     }
+    if (std::optional<std::string> note = wide_gap_note(planes, regions)) result.notes.push_back(std::move(*note));
     const std::vector<Bound> between = between_bounds(regions, ways);
     result.bounds.insert(result.bounds.end(), between.begin(), between.end());
     for (const Plane& empty : planes.set.empty_planes) {

@@ -25,7 +25,7 @@ struct Bound {
 
 struct Bounds {
     std::vector<Bound> bounds;
-    std::vector<std::string> notes;  ///< a word on a thickness that is but a guess, contours counted from 1
+    std::vector<std::string> notes;  ///< words on a thickness and a gap that are guesses, contours counted from 1
 };
 
 /// What planes say of the object beside the lines. There are five sources: a drawn plane, which shows where the object is

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/bounds/wide_gaps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kontur {
+namespace {
+
+constexpr double kWide = 2.5;  // of the gaps before and after
+
+bool overlap(const DrawnRegion& region, const Section& other) {
+    return std::ranges::any_of(region.inside, [&](const Probe& probe) {
+        return other.contains(other.plane.to_uv(region.section.plane.from_uv(probe.at)));
+    });
+}
+
+bool any_empty_ahead(const ContourSet& set, const Plane& plane, double distance_mm) {
+    return std::ranges::any_of(set.empty_planes, [&](const Plane& empty) {
+        const double ahead = plane.distance_to(empty.origin);
+        return are_parallel(plane, empty) && ahead > 0 && ahead < distance_mm;
+    });
+}
+
+/// The section ahead of a region, and how many times as far away as those before and after.
+struct WideGap {
+    const Section* section;
+    double distance_mm;
+    double times;
+};
+
+std::optional<WideGap> wide_gap(const DrawnPlanes& planes, const DrawnRegion& region) {
+    const Plane& plane = region.section.plane;
+    const auto before = planes.next(plane, -1), next = planes.next(plane, 1);
+    if (!before || !next) return {};
+    const double sign = dot(plane.normal, next->section->plane.normal) < 0 ? -1 : 1;
+    const auto after = planes.next(next->section->plane, sign);
+    if (!after) return {};
+    const double times = next->distance_mm / std::max(before->distance_mm, after->distance_mm);
+    if (times < kWide || !overlap(region, *next->section) || any_empty_ahead(planes.set, plane, next->distance_mm))
+        return {};
+    return WideGap{next->section, next->distance_mm, times};
+}
+
+}  // namespace
+
+std::optional<std::string> wide_gap_note(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions) {
+    for (const DrawnRegion& region : regions)
+        if (const auto gap = wide_gap(planes, region))
+            return fmt::format(
+                "contours {} and {} lie {:.3g} mm apart, {:.1f} times as far as the planes before and after "
+                "them; an empty plane between them would say that they are two bodies, a contour that they "
+                "are one",
+                region.section.contours.front() + 1, gap->section->contours.front() + 1, gap->distance_mm, gap->times);
+    return {};
+}
+
+}  // namespace kontur

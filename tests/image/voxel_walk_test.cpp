@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "kontur/image/walk_data.h"
 #include "kontur/sampling/spread_points.h"
 #include "support/horned_body.h"
 
@@ -145,6 +146,38 @@ TEST(ImageCells, AreLargerWhereThereWouldBeTooMany) {
     const ImageCells cells = image_cells(image_of(cube_grid(1), body_look), contours, 10'000);
     EXPECT_LT(cells.looks.size(), 14'000U) << "some more at the borders";
     EXPECT_GT(cells.looks.size(), 8'000U);
+}
+
+ImplicitFunction times(double factor, const ImplicitFunction& f) {
+    std::vector<Vec3> centers;
+    std::vector<double> weights;
+    for (std::size_t n = 0; n < f.weights().size(); ++n) {
+        centers.push_back(f.centers()[n]);
+        weights.push_back(factor * f.weights()[n]);
+    }
+    std::array<double, 4> polynomial = f.polynomial();
+    for (double& one : polynomial) one *= factor;
+    return {f.kernel(), f.frame(), PointArrays(centers), std::move(weights), polynomial};
+}
+
+// The same surface by a steeper function has steeper depths beside it: f bends nowhere that it did not.
+TEST(WalkData, IsAsSteepAsTheFunction) {
+    const ContourSet contours = cut(planes_of_ball(), ball_depth);
+    const Drawing drawing(contours);
+    const WalkAboutBall about(image_of(cube_grid(2), horned_look, 8), contours);
+    const Depths depths = depths_below(about.walk, about.cells);
+    FittedFunction fitted = follow_image_of(contours, image_of(cube_grid(2), horned_look, 8)).plain;
+    const auto data_by = [&](double factor) {
+        FittedFunction steeper = fitted;
+        steeper.function = times(factor, fitted.function);
+        return walk_data({about.walk, depths, about.cells}, {steeper, about.depths}, drawing, {});
+    };
+    const ImageData plain = data_by(1), flat = data_by(0.8);
+    ASSERT_EQ(plain.values.size(), flat.values.size());
+    std::size_t scaled = 0;
+    for (std::size_t n = 0; n < plain.values.size(); ++n)
+        scaled += std::abs(flat.values[n].value - 0.8 * plain.values[n].value) < 1e-9;
+    EXPECT_GT(scaled, plain.values.size() / 2);
 }
 
 }  // namespace

@@ -41,6 +41,33 @@ TEST(WalkSurface, LeavesDrawnPlanesAsTheyWere) {
             }
 }
 
+/// A wavy tube of 4 mm that bends, along z.
+double tube_depth(const Vec3& p) {
+    const double t = p.z / 40;
+    const Vec3 axis{10 * std::sin(2.5 * t), 10 * std::cos(2 * t) - 10, p.z};
+    return std::abs(p.z) > 45 ? -5.0 : 4 + std::sin(p.z / 6) - norm(p - axis);
+}
+
+// Lines that waver contradict the image beside them. The contours change then, unless they are kept where they did.
+TEST(WalkSurface, IsFollowedBesideAnUnsteadyHand) {
+    ContourSet contours = cut({make_plane({0, 0, -40.25}, {0, 0, 1}), make_plane({0, 0, -0.25}, {0, 0, 1}),
+                               make_plane({0, 0, 39.75}, {0, 0, 1}), make_plane({0.3, 0, 0}, {1, 0, 0})},
+                              tube_depth);
+    for (Contour& contour : contours.contours)
+        for (std::size_t i = 0; i < contour.points.size(); ++i)
+            contour.points[i] += 0.7 * std::sin(0.9 * static_cast<double>(i)) * contour.plane.u;
+    const double voxel = 1.5;
+    const Grid grid = cube_grid(voxel);
+    const FollowedImage r =
+        follow_image_of(contours, image_of(
+                                      grid, [](const Vec3& p) { return two_tissues(tube_depth(p)); }, 8));
+    EXPECT_TRUE(r.with_image.report.walked);
+    EXPECT_LE(r.with_image.report.on_contours_mm, 0.05 * voxel);
+    const double without = wrong_share(r.plain.function, grid, tube_depth),
+                 with = wrong_share(r.with_image.fitted.function, grid, tube_depth);
+    EXPECT_LT(with, 0.75 * without) << without << " without the image";
+}
+
 TEST(WalkSurface, IsTheSameForAnyNumberOfThreads) {
     const ContourSet contours = drawn_horns();
     const Image image = image_of(cube_grid(2), horned_look, 8);

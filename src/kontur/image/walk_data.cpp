@@ -16,6 +16,7 @@ constexpr double kLeastCrossing = 0.1;                // steps: a surface nearer
 constexpr double kAbsence = 1.5;                      // cells: so far from the walk's surface there is none
 constexpr double kNoiseOfAbsence = 0.5;               // of its distance
 constexpr std::size_t kMostAbsences = 450, kMostAnchors = 900;
+constexpr double kLeastSlope = 0.4, kMostSlope = 2;           // of f that counts, mm over mm
 constexpr double kAnchorNoise = 0.2, kMostAnchorValue = 1.5;  // cells
 
 class WalkConstraints {
@@ -152,6 +153,20 @@ private:
     std::vector<std::uint8_t> is_in_band_;
 };
 
+void append(const std::vector<PointConstraint>& more, std::vector<PointConstraint>& data) {
+    data.insert(data.end(), more.begin(), more.end());
+}
+
+/// Far from the contours f rises by more or less than the way. What is told of it rises alike, or f would have to bend and
+/// change beside the contours.
+void as_steep_as(const ImplicitFunction& function, std::vector<PointConstraint>& depths, const Work& work) {
+    std::vector<Vec3> places, gradients(depths.size());
+    for (const PointConstraint& one : depths) places.push_back(one.position);
+    function.gradients(places, gradients, work);
+    for (std::size_t n = 0; n < depths.size(); ++n)
+        depths[n].value *= std::clamp(norm(gradients[n]), kLeastSlope, kMostSlope);
+}
+
 }  // namespace
 
 ImageData walk_data(const WalkDepths& walk, const FitDepths& alone, const Drawing& drawing, const WalkDataOptions& options,
@@ -159,9 +174,9 @@ ImageData walk_data(const WalkDepths& walk, const FitDepths& alone, const Drawin
     const Affine3 frame = frame_of(drawing.contours);
     const WalkConstraints constraints(walk, alone.depths, options);
     ImageData data{constraints.beside_surface(frame), {}};
-    for (const std::vector<PointConstraint>& more :
-         {constraints.absences(frame), constraints.anchors_in_planes(alone.fitted.function, frame, work)})
-        data.values.insert(data.values.end(), more.begin(), more.end());
+    append(constraints.absences(frame), data.values);
+    as_steep_as(alone.fitted.function, data.values, work);
+    append(constraints.anchors_in_planes(alone.fitted.function, frame, work), data.values);
     data.change_mm = [constraints](const Vec3& p) { return constraints.change_mm(p); };
     const std::vector<Vec3> surface =
         points_of_surface(alone.fitted.function, drawing.contours, kSurfaceSpacing * drawing.diameter_mm(), work);

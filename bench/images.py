@@ -3,13 +3,18 @@
 """What the image between the contours is worth: structures cut by few planes, segmented without and with their image.
 
 Usage: bench/images.py --program build/release/bin/kontur_images --csv FILE [--data SCANS] [--fresh FRESH] [--new NEW]
-                       [--set tune|report|fresh|new] [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--jobs 1] [--shift-mm 0]
+                       [--set tune|report|fresh|new] [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--jobs 1]
+                       [--shift-mm 10 | --image noise | --image FILE] [--move-voxels 0.02]
        bench/images.py --csv FILE --tables
 
 SCANS, FRESH and NEW are laid out as image_sources.py says; what is not there is left out, which is said. Of 30 drawings (axial,
 orthogonal and oblique planes; 3, 4, 5, 7, 10 of them; exact and by hand) --share 3 takes every third, another third for the next
-structure. --shift-mm moves each image by so much beside what is drawn (along x and y, half of it along z): it should not be used
-then. Rows already in FILE are not measured again, so a run that was stopped goes on. --tables prints the tables of
+structure.
+
+Images that know nothing of what is drawn should not be used. --shift-mm moves each by so much (along x and y, half of it along z);
+--image noise, or the file of another patient, takes its place. (One of a single value is taken for an empty mask and never asked.)
+--move-voxels measures steadiness instead: the share of the object that the result changes by when one contour moves so far.
+Rows already in FILE are not measured again, so a run that was stopped goes on. --tables prints the tables of
 docs/accuracy/image.md.
 """
 import argparse
@@ -26,6 +31,8 @@ import image_sources
 
 FIELDS = ["structure", "kind", "planes", "hand", "dice_without", "hd95_without_mm", "mean_without_mm", "dice", "hd95_mm",
           "mean_mm", "use", "error_without_mm", "error_with_mm", "largest_move_mm", "on_contours_voxels", "fit_cpu_s", "image_cpu_s"]
+
+STEADINESS_FIELDS = ["structure", "kind", "planes", "hand", "change_without", "change"]
 
 
 def command(program, data, name, words):
@@ -52,7 +59,17 @@ def all_drawings():
     return [f"{kind},{count},{hand}" for kind in ("axial", "ortho", "oblique") for count in (3, 4, 5, 7, 10) for hand in ("exact", "hand")]
 
 
+def begin(options):
+    """The file's first line; a file of other columns is left as it is."""
+    header = ",".join(STEADINESS_FIELDS if options.move_voxels else FIELDS) + "\n"
+    if not options.csv.exists():
+        options.csv.write_text(header, encoding="utf-8")
+    elif not options.csv.read_text(encoding="utf-8").startswith(header):
+        sys.exit(f"images.py: error: {options.csv} has other columns than these rows; name another file with --csv")
+
+
 def measure(options):
+    begin(options)
     done = {(row["structure"], f"{row['kind']},{row['planes']},{row['hand']}") for row in measured(options.csv)}
     sets = image_sources.sets()
     wanted = options.drawings.split(";") if options.drawings else all_drawings()
@@ -67,10 +84,9 @@ def measure(options):
         call = command(options.program, data, name, words) if missing else None
         if call:
             tasks.append((call, ";".join(missing)))
-    if not options.csv.exists():
-        options.csv.write_text(",".join(FIELDS) + "\n", encoding="utf-8")
-
-    environment = os.environ | ({"KONTUR_IMAGES_SHIFT_MM": str(options.shift_mm)} if options.shift_mm else {})
+    settings = {"KONTUR_IMAGES_SHIFT_MM": options.shift_mm, "KONTUR_IMAGES_OTHER": options.image,
+                "KONTUR_IMAGES_MOVE_VOXELS": options.move_voxels}
+    environment = os.environ | {name: str(value) for name, value in settings.items() if value}
 
     def run(task):
         call, drawings = task
@@ -94,8 +110,17 @@ def line(name, rows):
             f"{mean('image_cpu_s'):.2f} |")
 
 
+def steadiness(rows):
+    print("| drawings | without: mean | largest | with: mean | median | largest |\n|---|---|---|---|---|---|")
+    without, with_image = ([float(row[field]) for row in rows] for field in STEADINESS_FIELDS[-2:])
+    print(f"| {len(rows)} | {statistics.fmean(without):.5f} | {max(without):.5f} | {statistics.fmean(with_image):.5f} | "
+          f"{statistics.median(with_image):.5f} | {max(with_image):.5f} |")
+
+
 def tables(options):
     rows, sets = measured(options.csv), image_sources.sets()
+    if rows and "change" in rows[0]:
+        return steadiness(rows)
     groups = collections.OrderedDict()
     for row in rows:
         which = sets[row["structure"]]
@@ -127,6 +152,8 @@ def main():
     parser.add_argument("--drawings", default="")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--shift-mm", type=float, default=0)
+    parser.add_argument("--image", default="")
+    parser.add_argument("--move-voxels", type=float, default=0)
     parser.add_argument("--tables", action="store_true")
     options = parser.parse_args()
     if not options.tables:

@@ -16,7 +16,8 @@ constexpr double kLeastCrossing = 0.1;                // steps: a surface nearer
 constexpr double kAbsence = 1.5;                      // cells: so far from the walk's surface there is none
 constexpr double kNoiseOfAbsence = 0.5;               // of its distance
 constexpr std::size_t kMostAbsences = 450, kMostAnchors = 900;
-constexpr double kLeastSlope = 0.4, kMostSlope = 2;           // of f that counts, mm over mm
+// Of f that counts, mm over mm. Of ten drawings Dice .8973; half as much at least .8972, twice .8989.
+constexpr double kLeastSlope = 0.4;
 constexpr double kAnchorNoise = 0.2, kMostAnchorValue = 1.5;  // cells
 
 class WalkConstraints {
@@ -157,14 +158,13 @@ void append(const std::vector<PointConstraint>& more, std::vector<PointConstrain
     data.insert(data.end(), more.begin(), more.end());
 }
 
-/// Far from the contours f rises by more or less than the way. What is told of it rises alike, or f would have to bend and
-/// change beside the contours.
+/// Far from the contours f rises by less than the way. What is told of it rises alike, or f would have to bend and change
+/// beside the contours.
 void as_steep_as(const ImplicitFunction& function, std::vector<PointConstraint>& depths, const Work& work) {
     std::vector<Vec3> places, gradients(depths.size());
     for (const PointConstraint& one : depths) places.push_back(one.position);
     function.gradients(places, gradients, work);
-    for (std::size_t n = 0; n < depths.size(); ++n)
-        depths[n].value *= std::clamp(norm(gradients[n]), kLeastSlope, kMostSlope);
+    for (std::size_t n = 0; n < depths.size(); ++n) depths[n].value *= std::max(norm(gradients[n]), kLeastSlope);
 }
 
 }  // namespace

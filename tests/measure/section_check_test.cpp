@@ -334,6 +334,23 @@ TEST(SectionCheck, RingsAcrossAVesselSayNothingOfItsOtherTurns) {
     EXPECT_TRUE(sentences(check).empty()) << sentences(check).front();
 }
 
+TEST(SectionCheck, APlaneGivenAsEmptyDoesNotSilenceAStack) {
+    // A comb: the middle slice shows its back alone, and the result has a tooth there.
+    ContourSet set;
+    for (const double z : {-4.0, -2.0, 0.0, 2.0, 4.0}) {
+        set.contours.push_back(test::circle(axial_at(z), 3, 40));
+        if (z == 0) continue;
+        set.contours.push_back(test::circle(axial_at(z), 6, 60));
+        for (Vec3& p : set.contours.back().points) p.x += 20;
+    }
+    const Solid joined = [](const Vec3& p) {
+        return std::max(3 - std::hypot(p.x, p.y), std::min(6 - std::hypot(p.x - 20, p.y), 5 - std::abs(p.z)));
+    };
+    EXPECT_EQ(checked(set, joined).wrong_planes(), 1u);
+    set.empty_planes.push_back(make_plane({0, -30, 0}, {0.2, 1, 0.4}));
+    EXPECT_EQ(checked(set, joined).wrong_planes(), 1u);
+}
+
 TEST(SectionCheck, IsTheSameForAnyNumberOfThreads) {
     ContourSet set = crossing_planes();
     apply_fill_rule(set, FillRule::even_odd);

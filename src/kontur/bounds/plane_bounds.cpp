@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kInside = 0.05;       // of how deep a place lies inside: the surface may pass close above it
 constexpr double kInsideNoise = 0.03;  // of the same
-constexpr double kHidden = 0.5;        // of a tube's way: what is nearer to the plane's lines was seen
-constexpr double kWall = 0.5;          // of a tube's radius: so near to its way's surface nothing is sure
-constexpr double kSurelyNear = 0.25;   // of the distance to the lines: what others show nearer than that decides
+// Of a tube's radius: so near to its way's surface nothing is sure. Of four helices half changes no figure, twice .0001.
+constexpr double kWall = 0.5;
+constexpr double kSurelyNear = 0.25;  // of the distance to the lines: what others show nearer than that decides
 
 /// How far a place is known to lie outside, and how much of that is to be believed.
 struct Outside {
@@ -121,7 +121,7 @@ private:
         if (clear < step_mm / 4) return;
         const Vec3 place = own_.section.plane.from_uv(at);
         if (is_beyond_cut(place)) return;
-        const Outside outside = beside_tubes(place, clear, outside_of(place, clear));
+        const Outside outside = beside_tubes(place, own_.search.clearance(at), outside_of(place, clear));
         if (outside.belief >= kLeastBelief)
             bounds.push_back(outside_bound(place, outside.distance_mm, step_mm, outside.belief));
     }
@@ -176,9 +176,9 @@ private:
     }
 
     /// The same where tubes of other planes pass near the place.
-    Outside beside_tubes(const Vec3& place, double clear, Outside outside) const {
+    Outside beside_tubes(const Vec3& place, double from_lines, Outside outside) const {
         for (const TubeWay* const way : ways_) {
-            const double hides = way->belief * smooth_step(kHidden, 2 * kHidden, clear / way->length_mm);
+            const double hides = way->belief * smooth_step(kHidden, 2 * kHidden, from_lines / way->length_mm);
             if (hides == 0) continue;
             const double apart = way->distance_mm(place) - way->radius_mm();
             if (apart >= outside.distance_mm) continue;

@@ -8,6 +8,10 @@
 
 namespace kontur {
 
+/// Of a tube's way: what is nearer to a plane's lines than that was looked at as it was drawn, and twice as far it was not.
+/// Of four helices the mean Dice is .887; half .887, twice .840.
+constexpr double kHidden = 0.5;
+
 /// What one outline of a plane encloses.
 struct RegionPart {
     std::size_t region;

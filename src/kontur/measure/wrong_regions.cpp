@@ -165,8 +165,10 @@ std::vector<std::vector<Contradiction>> contradictions(std::span<const PlaneLook
 
 OtherPlanes::OtherPlanes(std::span<const PlaneLook> looks, double tolerance_mm)
     : looks_(looks), tolerance_mm_(tolerance_mm) {
+    // The drawn ones come first. What is given as empty does not make a stack less of one.
     for (const PlaneLook& look : looks)
-        are_parallel_ = are_parallel_ && std::abs(dot(look.plane().normal, looks.front().plane().normal)) > 0.95;
+        if (look.section())
+            are_parallel_ = are_parallel_ && std::abs(dot(look.plane().normal, looks.front().plane().normal)) > 0.95;
 }
 
 bool OtherPlanes::silence(const PlaneLook& own, const Vec3& place) const {

@@ -8,8 +8,10 @@ import sys
 import numpy as np
 import pytest
 
+import hunt
 import shapes
 import solids
+import tubes
 from tables import filled
 
 BENCH = pathlib.Path(__file__).parent
@@ -65,6 +67,43 @@ def test_the_tables_are_made_from_the_published_results():
     assert not any(map(shapes.is_silent, rows))
     published = PAGE.read_text()
     assert filled(published, rows, shapes.TABLES) == published
+
+
+@pytest.mark.parametrize("shape", tubes.SHAPES)
+def test_rings_lie_on_their_tube_at_even_distances(shape):
+    curve_of, count = tubes.SHAPES[shape]
+    curve = curve_of(5, (count - 1) * 4 * 5, np.random.default_rng(2))
+    contours = tubes.rings_of(curve, 5, count, 0, np.array([0, 1, 0]))
+    middles = np.array([np.mean(contour.points, axis=0) for contour in contours])
+    line = curve(np.linspace(0, 1, 5000))
+    for contour, middle in zip(contours, middles):
+        assert np.linalg.norm(line - middle, axis=1).min() < 0.05
+        assert np.allclose(np.linalg.norm(contour.points - middle, axis=1), 5)
+    assert np.ptp(tubes.at_even_ways(curve, count)[1:]) > 0.5
+    assert tubes.curve_length(curve) == pytest.approx((count - 1) * 20, rel=1e-3)
+
+
+def test_the_table_of_tubes_is_made_from_the_published_results():
+    published = PAGE.read_text()
+    assert filled(published, tubes.read(BENCH / "results/tubes.csv"), {"tubes": tubes.by_drawing}) == published
+
+
+def test_the_hunt_draws_what_its_solids_are_and_leaves_empty_what_is_empty():
+    ways = set()
+    for number in range(12):
+        solid, _, size_mm, way, planes, contours = hunt.made_drawing(number, 1)
+        ways.add(way.split()[0])
+        if not way.startswith(("odd", "slab")):
+            points = np.vstack([contour.points for contour in contours.contours])
+            assert np.quantile(np.abs(solid.values(points)), 0.98) < 0.002 * size_mm
+        assert all(hunt.is_empty(solid, plane, size_mm) for plane in contours.empty_planes)
+    assert len(ways) > 4
+
+
+def test_a_fault_is_silent_where_neither_the_check_nor_a_warning_speaks():
+    fault = {"wrong": "0.2", "volume_ml": "1", "truth_ml": "1", "sentences": 0, "warnings": 0}
+    assert hunt.is_silent(fault) and hunt.is_silent(fault | {"wrong": "0", "volume_ml": "1.6"})
+    assert not hunt.is_silent(fault | {"wrong": "0"}) and not hunt.is_silent(fault | {"warnings": 1})
 
 
 def test_rows_are_written_as_they_are_measured(monkeypatch):

@@ -157,7 +157,7 @@ def column(one):
 
 
 def by_drawing(some):
-    """The mean Dice and the lowest, by shape."""
+    """The mean Dice by shape."""
     shapes = [*SHAPES, "stack"]
     columns = list(dict.fromkeys(map(column, some)))
     lines = []
@@ -165,7 +165,7 @@ def by_drawing(some):
         cells = []
         for shape in shapes:
             found = [float(one["dice"]) for one in some if one["shape"] == shape and column(one) == name]
-            cells.append(f"{statistics.mean(found):.3f}, {min(found):.3f}" if found else "")
+            cells.append(f"{statistics.mean(found):.3f}" if found else "")
         lines.append([name, *cells])
     return table(["drawing", *shapes], lines)
 

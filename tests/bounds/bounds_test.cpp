@@ -189,8 +189,10 @@ TEST(PlaneBounds, KeepAwayFromWhereOtherPlanesShowTheObject) {
 TEST(PlaneBounds, SayNothingOfATubeBetweenRingsOfOtherPlanes) {
     // Two rings of a turn of a vessel; the plane half-way between them shows the next turn alone.
     ContourSet set;
-    for (const Vec3& middle : {Vec3{}, Vec3{28, 0, 0}, Vec3{14, 40, 0}})
-        set.contours.push_back(test::circle(make_plane(middle, {1, 0, 0}), 5, 40));
+    const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
+    set.contours.push_back(test::circle(make_plane({0, 0, -3.5}, {c, 0, s}), 5, 40));
+    set.contours.push_back(test::circle(make_plane({28, 0, -3.5}, {c, 0, -s}), 5, 40));
+    set.contours.push_back(test::circle(make_plane({14, 40, 0}, {1, 0, 0}), 5, 40));
     const DrawnPlanes planes(set);
     const std::vector<DrawnRegion> regions = drawn_regions(planes);
     const auto in_the_tube = [](const std::vector<Bound>& bounds) {

@@ -22,7 +22,7 @@ bool others_show_nothing(const std::vector<DrawnRegion>& regions, const TubeWay&
         const Plane& plane = regions[r].section.plane;
         if (std::abs(plane.distance_to(place)) > kNearby * way.length_mm) continue;
         const Point2 at = plane.to_uv(place);
-        if (!regions[r].search.contains(at) && regions[r].search.clearance(at) < kHidden * way.length_mm) return true;
+        if (!regions[r].search.contains(at) && regions[r].search.clearance(at) < way.length_mm) return true;
     }
     return false;
 }

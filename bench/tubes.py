@@ -150,10 +150,10 @@ def rows(numbers):
 def column(one):
     """What a drawing is, apart from its shape."""
     if one["group"] == "gaps":
-        return f"{float(one['radii_apart']):g} radii apart"
+        return f"{float(one['radii_apart']):g} radii"
     if one["group"] == "empty":
-        return f"empty plane {one['beyond_mm']} mm beyond"
-    return "feet nearly in one plane"
+        return f"empty: {one['beyond_mm']} mm"
+    return "feet"
 
 
 def by_drawing(some):
@@ -167,7 +167,7 @@ def by_drawing(some):
             found = [float(one["dice"]) for one in some if one["shape"] == shape and column(one) == name]
             cells.append(f"{statistics.mean(found):.3f}" if found else "")
         lines.append([name, *cells])
-    return table(["drawing", *shapes], lines)
+    return table(["drawing", *shapes], lines).replace(" | ", "|")
 
 
 def compared(before, after):

@@ -64,6 +64,25 @@ TEST(ExportFits, AStructureAloneStaysWhileOthersChange) {
     EXPECT_EQ(fits.one(renamed, 4, {})->structure.name, "Other");
 }
 
+TEST(ExportFits, AReviewComesAlongWithoutAnotherFit) {
+    ExportFits fits(test::flat_image());
+    const State state = two_circles(false);
+    const auto first = fits.one(state, 4, {});
+    State reviewed = state;
+    reviewed.structures.at(4).attributes.review.approved = Approval{"Doe", "2026-01-02T03:04:05"};
+    StopSource stop;
+    stop.request_stop();  // a fit would be cancelled
+    const auto again = fits.one(reviewed, 4, {.stop = stop.token()});
+    EXPECT_EQ(again->structure, reviewed.structures.at(4));
+    EXPECT_EQ(again->set.attributes.review, reviewed.structures.at(4).attributes.review);
+    EXPECT_EQ(again->made.mask.values, first->made.mask.values);
+    EXPECT_FALSE(fits.one(state, 4, {.stop = stop.token()})->set.attributes.review.approved) << "after undo";
+    EXPECT_FALSE(first->set.attributes.review.approved) << "others may still read it";
+    State smoother = reviewed;
+    smoother.structures.at(4).smoothing = 0.3;
+    EXPECT_KONTUR_ERROR(fits.one(smoother, 4, {.stop = stop.token()}), ErrorKind::cancelled, "");
+}
+
 TEST(ExportFits, TellsWhatHasNoContours) {
     ExportFits fits(test::flat_image());
     State state = two_circles(false);

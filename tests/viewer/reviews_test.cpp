@@ -187,6 +187,31 @@ TEST(Reviews, ANeighborAtASharedBorderLosesItsApproval) {
     EXPECT_FALSE(visit.is_approved(ring));
 }
 
+TEST(Reviews, ANeighborThatTouchesForTheFirstTimeTakesTheApprovalBack) {
+    Visit visit;
+    ContourSet far = disc("Far", 4);
+    for (Vec3& p : far.contours.front().points) p.x += 14;
+    const Id other = visit.session->add_structures("Import", {far}).front();
+    visit.done({{"call", "borders.set"}, {"shared", true}});
+    visit.session->wait_for_surfaces();
+    visit.approve(visit.tumour);
+    const auto moved = [&](double by) {
+        for (const auto& [id, contour] : visit.session->state().contours)
+            if (contour->structure == other)
+                visit.done({{"call", "contour.translate"}, {"id", id}, {"by", {by, 0, 0}}, {"draft", false}});
+        visit.session->wait_for_surfaces();
+    };
+    moved(1);
+    EXPECT_TRUE(visit.is_approved(visit.tumour)) << "they do not touch";
+    moved(-7);
+    EXPECT_FALSE(visit.is_approved(visit.tumour));
+    ASSERT_FALSE(visit.notices.empty());
+    EXPECT_EQ(visit.notices.back(),
+              "Tumour shares a border with Far now, which was edited, so the approval by Doe is taken back");
+    visit.done({{"call", "undo"}});
+    EXPECT_TRUE(visit.is_approved(visit.tumour)) << "a step of its own";
+}
+
 TEST(Reviews, AreInTheProjectWhichOlderVersionsRefuseThen) {
     Visit visit;
     const auto path = visit.folder.path() / "a.kontur";

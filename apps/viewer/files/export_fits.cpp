@@ -15,11 +15,31 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{512} << 20;
 constexpr std::size_t kMostKept = 8;
 
+/// But for what reviewers say, which changes no fit.
+bool is_same(const Structure& a, const Structure& b) {
+    Structure same = a;
+    same.attributes.review = b.attributes.review;
+    return same == b;
+}
+
 bool is_same(const State& a, const State& b) {
-    return a.structures == b.structures && a.borders == b.borders && a.use_image == b.use_image &&
-           a.cycle_frames == b.cycle_frames && std::ranges::equal(a.contours, b.contours, [](const auto& x, const auto& y) {
+    const auto are_same = [](const auto& x, const auto& y) { return x.first == y.first && is_same(x.second, y.second); };
+    return std::ranges::equal(a.structures, b.structures, are_same) && a.borders == b.borders &&
+           a.use_image == b.use_image && a.cycle_frames == b.cycle_frames &&
+           std::ranges::equal(a.contours, b.contours, [](const auto& x, const auto& y) {
                return x.first == y.first && (x.second == y.second || *x.second == *y.second);
            });
+}
+
+void put_review(FittedStructure& one, const State& state) {
+    const Review& review = structure_of(state, one.structure.id).attributes.review;
+    one.structure.attributes.review = one.set.attributes.review = review;
+}
+
+bool has_reviews_of(const std::vector<FittedStructure>& fits, const State& state) {
+    return std::ranges::all_of(fits, [&](const FittedStructure& one) {
+        return one.structure.attributes.review == structure_of(state, one.structure.id).attributes.review;
+    });
 }
 
 State without_rules(State state) {
@@ -95,7 +115,11 @@ ExportFits::Fits ExportFits::all(const State& state, const Work& work, const Fit
 }
 
 FittedStructure ExportFits::in_time(const State& state, Id structure, const FitWish& wish, const Work& work) {
-    if (is_moving(state, structure)) return motion(state, structure, work)->at(wish.time.value_or(state.opened_time));
+    if (is_moving(state, structure)) {
+        FittedStructure moving = motion(state, structure, work)->at(wish.time.value_or(state.opened_time));
+        put_review(moving, state);
+        return moving;
+    }
     const std::shared_ptr<const Image> image = image_at_(*drawn_times(state, structure).begin());
     FittedStructure made = fit_structure(only(state, structure), structure, *image, wish.mesh, work);
     made.shares_border = false;
@@ -178,6 +202,11 @@ ExportFits::Fits ExportFits::kept(const State& state, bool mesh, const std::func
             kept_, [&](const FitsOfState& one) { return (one.mesh || !mesh) && is_same(one.state, state); });
         if (known != kept_.end()) {
             kept_.splice(kept_.begin(), kept_, known);
+            if (!has_reviews_of(*known->fits, state)) {
+                auto reviewed = std::make_shared<std::vector<FittedStructure>>(*known->fits);
+                for (FittedStructure& one : *reviewed) put_review(one, state);
+                known->fits = std::move(reviewed);
+            }
             return known->fits;
         }
     }

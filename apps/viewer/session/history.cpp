@@ -102,6 +102,7 @@ void follow_touched(SessionState& s, const Commit& step, const std::set<Id>& tou
 void announce(SessionState& s, const Commit& step) {
     const std::set<Id> touched = touched_surfaces(s, step);
     s.surfaces.outdate(touched);
+    s.edited_since_borders.insert(touched.begin(), touched.end());
     tell_changes(s, step);
     follow_touched(s, step, touched);
 }
@@ -157,6 +158,7 @@ void commit(SessionState& s, const Commit& given) {
         throw;
     }
     s.surfaces.outdate(touched);
+    s.edited_since_borders.insert(touched.begin(), touched.end());
     if (!step.is_empty()) tell_changes(s, step);
     for (const std::string& sentence : taken_back) s.pages.notice("warning", sentence);
     follow_touched(s, step, touched);
@@ -175,6 +177,7 @@ void commit_ahead(SessionState& s, const Commit& step) {
     // What the hand released is most often what it showed last, and then its surface is here already, or on its way.
     const bool is_followed = s.draft ? same_surface(s.draft->contour, contour) : touched_surfaces(s, step).empty();
     s.draft = Draft{contour, {}, s.caller};
+    s.edited_since_borders.insert(contour.structure);
     if (!is_followed) follow(s, contour.structure);
     try {
         s.project.commit(step);

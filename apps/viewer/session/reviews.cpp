@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "kontur/base/error.h"
 #include "viewer/model/structure_rules.h"
+#include "viewer/session/history.h"
 
 namespace kontur::viewer {
 namespace {
@@ -107,6 +109,36 @@ ReviewedStep without_approvals(const SessionState& s, const Commit& step, const 
                                                   after->name, now->second.attributes.review.approved->by));
     }
     return reviewed;
+}
+
+void take_approvals_back(SessionState& s, const std::vector<BorderPair>& pairs) {
+    const std::scoped_lock lock(s.mutex);
+    const std::set<Id> edited = std::exchange(s.edited_since_borders, {});
+    const std::vector<BorderPair> known = std::exchange(s.border_pairs, pairs);
+    const State& state = s.project.state();
+    Commit step;
+    std::vector<std::string> sentences;
+    const auto take_back = [&](Id id, Id neighbor) {
+        const auto own = state.structures.find(id), other = state.structures.find(neighbor);
+        if (own == state.structures.end() || other == state.structures.end() || !is_approved(own->second)) return;
+        Structure* const after = after_of(step, own->second);
+        if (!is_approved(*after)) return;
+        after->attributes.review.approved.reset();
+        step.label = "Take the approval of " + after->name + " back";
+        sentences.push_back(
+            fmt::format("{} shares a border with {} now, which was edited, so the approval by {} is taken back", after->name,
+                        other->second.name, own->second.attributes.review.approved->by));
+    };
+    for (const BorderPair& pair : pairs) {
+        const auto is_pair = [&](const BorderPair& one) { return one.first == pair.first && one.second == pair.second; };
+        if (std::ranges::any_of(known, is_pair)) continue;  // the edit itself took the approval back
+        if (edited.contains(pair.first)) take_back(pair.second, pair.first);
+        if (edited.contains(pair.second)) take_back(pair.first, pair.second);
+    }
+    if (step.structures.empty()) return;
+    s.project.commit(step);
+    tell_changes(s, step);
+    for (const std::string& sentence : sentences) s.pages.notice("warning", sentence);
 }
 
 }  // namespace kontur::viewer

@@ -8,18 +8,24 @@
 
 #include "viewer/session/events.h"
 #include "viewer/session/history.h"
+#include "viewer/session/reviews.h"
 
 namespace kontur::viewer {
 namespace {
 
 /// Tells pages what becomes of the surfaces.
-SurfaceListener surface_listener(const SessionState& s) {
+SurfaceListener surface_listener(SessionState& s) {
     return {[&s](Id structure, std::int64_t revision, const PlaneCutters& cut) {
                 s.pages.tell(outlines_event(s.watched.all(), structure, revision, cut));
             },
             [&s](const std::shared_ptr<const Surface>& surface) { s.pages.tell(surface_event(s, *surface)); },
             s.pages.status_teller(),
             [&s](const std::vector<BorderPair>& pairs, const std::string& problem) {
+                try {
+                    take_approvals_back(s, pairs);
+                } catch (const std::exception& error) {
+                    s.pages.notice("error", error.what());
+                }
                 if (!problem.empty())
                     s.pages.notice("warning", fmt::format("Structures share no borders here: {}", problem));
                 s.pages.tell({{"event", "borders"}, {"pairs", to_json(pairs)}});

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -82,8 +83,10 @@ struct SessionState {
     std::vector<std::string> notes;
     Project project;
     std::optional<Draft> draft;
-    std::uint64_t steps = 0;  ///< made, undone and made again since the session began
-    PageId caller = 0;        ///< whose call is carried out
+    std::set<Id> edited_since_borders;     ///< structures that may touch others for the first time
+    std::vector<BorderPair> border_pairs;  ///< as they were last found
+    std::uint64_t steps = 0;               ///< made, undone and made again since the session began
+    PageId caller = 0;                     ///< whose call is carried out
 
     Surfaces surfaces;  ///< last: its threads tell events
 };

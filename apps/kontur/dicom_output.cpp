@@ -9,6 +9,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/dicom/dicom_phases.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/images/nrrd.h"
 #include "kontur/io/images/segment_tags.h"
@@ -164,7 +165,7 @@ std::vector<std::string> write_masks_over_time(const OutputFile& file, std::span
     segment.color = to_rgb8(options.segment_color);
     WriteDicomSegOptions write = seg_options(series, provenance);
     write.algorithm = {"kontur variational interpolation over time", KONTUR_VERSION, text_of(provenance)};
-    const std::vector<DicomSeries> volumes = list_dicom_volumes(images.path, images.options.dicom, work);
+    const std::vector<DicomSeries> volumes = list_dicom_frames(images.path, images.options.dicom, work);
     return write_dicom_seg_over_time(path, {masks, segment, volumes}, write, work);
 }
 

@@ -86,18 +86,28 @@ void turn_into_suv(viewer::OpenedImage& opened, Messages& messages) {
 
 /// Of the image of which one frame or volume was opened.
 ImageFrames frames_of(const ImageInput& input) {
-    if (!input.options.frame && !input.options.dicom.volume) return {};
+    if (!input.options.frame && !input.options.dicom.volume && !input.options.dicom.series_uid) return {};
     try {
-        return read_image_frames(input.path, input.options);
+        ImageFrames frames = read_image_frames(input.path, input.options);
+        const auto& series = input.options.dicom.series_uid;
+        if (frames.count > 1 || !series || !fs::is_directory(input.path)) return frames;
+        return frames_beside(input.path, *series);
     } catch (const Error&) {
         return {};  // what was opened is all that there is
     }
 }
 
+/// From 1.
+std::int64_t place_of(const std::string& uid, const std::vector<std::string>& uids) {
+    return std::find(uids.begin(), uids.end(), uid) - uids.begin() + 1;
+}
+
 /// The other volumes are read when somebody looks at them.
-viewer::Times times_of(const ImageInput& input) {
+viewer::Times times_of(const ImageInput& input, viewer::OpenedImage& opened) {
     const ImageFrames frames = frames_of(input);
-    const auto own = frames.are_volumes ? *input.options.dicom.volume : input.options.frame.value_or(1);
+    const auto own = !frames.series_uids.empty() ? place_of(*input.options.dicom.series_uid, frames.series_uids)
+                     : frames.are_volumes        ? *input.options.dicom.volume
+                                                 : input.options.frame.value_or(1);
     const auto read = [input, frames](int time) {
         ImageInput other = input;
         other.options = of_frame(input.options, frames, time + 1);
@@ -107,6 +117,7 @@ viewer::Times times_of(const ImageInput& input) {
         turn_into_suv(image, messages);
         return image.image;
     };
+    if (!frames.order.empty()) opened.notes.push_back(frames.order);
     return {static_cast<int>(frames.count), static_cast<int>(own) - 1, read, frames.step_s, frames.cycle_frames()};
 }
 
@@ -120,7 +131,7 @@ viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Messag
         opened.reference.path = viewer::kExample;
     } else {
         open_file(input, work, opened, messages);
-        opened.times = times_of(input);
+        opened.times = times_of(input, opened);
     }
     work.report("look at values", 1);
     opened.reference.fingerprint = viewer::fingerprint(*opened.image);

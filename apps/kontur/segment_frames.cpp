@@ -148,11 +148,12 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     ContourSet& contours = read.contours;
     std::vector<std::string> notes = std::move(read.notes);
     if (!command.name.empty()) contours.name = command.name;
-    for (std::string& note : frame_of_reference_notes(read.frame_of_reference_uid, command.image))
-        notes.push_back(std::move(note));
     ReadImageOptions image = command.image.options;
     image.on_note = [&](std::string_view note) { notes.emplace_back(note); };
     const ImageFrames frames = read_image_frames(command.image.path, image, work);
+    if (!frames.order.empty()) notes.push_back(fmt::format("{}: {}", command.image.path.string(), frames.order));
+    const ImageInput first{command.image.path, of_frame(command.image.options, frames, 1)};
+    for (std::string& note : frame_of_reference_notes(read.frame_of_reference_uid, first)) notes.push_back(std::move(note));
     const Grid grid = read_grid(command.image.path, of_frame(image, frames, 1), work);
     choose_cycle(command, contours, frames, notes);
     std::vector<fs::path> inputs = command.contours;

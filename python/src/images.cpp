@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
 #include "kontur/io/image.h"
+#include "kontur/io/image_frames.h"
 #include "notes.h"
 #include "provenance.h"
 
@@ -11,7 +12,7 @@ namespace fs = std::filesystem;
 
 Keywords<ReadImageOptions> read_keywords() {
     return Keywords<ReadImageOptions>()
-        .field("frame", &ReadImageOptions::frame, "Which frame of a 4D image, from 1.")
+        .field("frame", &ReadImageOptions::frame, "Which frame of a 4D image, or of a folder of frames, from 1.")
         .field("prefer", &ReadImageOptions::prefer, "Which transform of a NIfTI file counts when its two differ.")
         .field("allow_missing_geometry", &ReadImageOptions::allow_missing_geometry,
                "Accept an image that does not say where it lies in the patient.")
@@ -42,11 +43,35 @@ std::string read_help(const std::string& more_parameters = "") {
 Parameters
 ----------
 path : path
-    NIfTI, NRRD, MetaImage, a DICOM folder or one of its files.
+    NIfTI, NRRD, MetaImage, a DICOM folder or one of its files, or a folder with such an image for each frame.
 )" + more_parameters +
            R"(@on_note
 @options
 )";
+}
+
+void bind_frames(py::module_& m, const Keywords<ReadImageOptions>& keywords) {
+    py::class_<ImageFrames> frames(m, "ImageFrames", "The frames of an image over time.");
+    frames.def_readonly("count", &ImageFrames::count, "int: how many there are; `read_image` takes a frame from 1 to this.");
+    frames.def_readonly("step_s", &ImageFrames::step_s,
+                        "float, optional: seconds from one to the next; None where the file does not say, or it varies.");
+    frames.def_property_readonly("cycle_frames", &ImageFrames::cycle_frames,
+                                 "float, optional: after so many the motion repeats; None where the file does not say.");
+    frames.def_readonly("order", &ImageFrames::order,
+                        "str: of frames in files or series of their own, which comes first and last; else empty.");
+    const std::string help =
+        std::string("How many frames an image has, and what it says of time; reads no voxels.\n") + read_help() + R"(
+Returns
+-------
+ImageFrames
+)";
+    define(
+        m, "read_image_frames", help.c_str(),
+        [keywords](const ExistingPath& path, const py::object& on_note, const py::kwargs& given) {
+            return read_with_notes(keywords.parse("read_image_frames", given), on_note,
+                                   [&](const ReadImageOptions& options) { return read_image_frames(path, options); });
+        },
+        py::arg("path"), py::kw_only(), kOnNote, KeywordText(keywords));
 }
 
 }  // namespace
@@ -77,6 +102,7 @@ Grid
                                    [&](const ReadImageOptions& options) { return read_grid(path, options); });
         },
         py::arg("path"), py::kw_only(), kOnNote, KeywordText(keywords));
+    bind_frames(m, keywords);
     const std::string mask_help = std::string("Reads a mask.\n") + read_help(R"(label : int, optional
     The voxels with this value; needed when the file has several. All that are not 0 when left out.
 )") + R"(

@@ -107,3 +107,18 @@ def test_bad_input_is_refused(contours, grid):
         kontur.segment_moving(contours, grid, range(1, 5))
     with pytest.raises(kontur.InvalidInputError, match="moment 2 is at 1, not after 1"):
         kontur.MovingFunction([1, 1], [kontur.ImplicitFunction("biharmonic", [0, 0, 0], 1, [[0, 0, 0]], [1], [0, 0, 0, 0])] * 2)
+
+
+def test_a_folder_of_files_is_read_frame_by_frame(tmp_path, contours, grid, made):
+    for frame in range(1, FRAMES + 1):
+        image = kontur.Image(numpy.full(grid.shape, frame, numpy.int16), grid)
+        kontur.write_image(tmp_path / f"frame {3 * frame}.nrrd", image)
+    frames = kontur.read_image_frames(tmp_path)
+    assert (frames.count, frames.step_s, frames.cycle_frames) == (FRAMES, None, None)
+    assert frames.order.startswith(f"the {FRAMES} frames are files in this order: frame 3.nrrd to frame {3 * FRAMES}.nrrd")
+    images = [kontur.read_image(tmp_path, frame=n) for n in range(1, frames.count + 1)]
+    assert [int(image.samples.max()) for image in images] == list(range(1, FRAMES + 1))
+    moving = kontur.segment_moving(contours, kontur.read_grid(tmp_path, frame=1), range(1, frames.count + 1))
+    assert all(numpy.array_equal(one.values, other.values) for one, other in zip(moving.masks, made.masks))
+    with pytest.raises(kontur.UnsupportedError, match=f"holds {FRAMES} images"):
+        kontur.read_image(tmp_path)

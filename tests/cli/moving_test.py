@@ -220,6 +220,73 @@ def test_frames_may_be_a_list_of_nrrd(tmp_path, cine, contours, kinds):
     assert numpy.array_equal(one, other) and one.any()
 
 
+@pytest.fixture(name="files")
+def files_fixture(tmp_path, cine):
+    """The cine's frames as files of their own, whose names sort otherwise than they count."""
+    folder = tmp_path / "files"
+    folder.mkdir()
+    image = nibabel.load(cine)
+    for n in range(FRAMES):
+        nibabel.save(nibabel.Nifti1Image(numpy.full((25, 25, 25), n, numpy.int16), image.affine), folder / f"phase {5 * (n + 1)}.nii.gz")
+    return folder
+
+
+def test_frames_may_be_the_files_of_a_folder_in_the_order_of_their_numbers(tmp_path, cine, files, contours):
+    succeed("segment", contours, "--image", cine, "--output", tmp_path / "one.nii.gz")
+    result = kontur("segment", contours, "--image", files, "--output", tmp_path / "many.nii.gz")
+    assert result.returncode == 0, result.stderr
+    assert (f"{files}: the 8 frames are files in this order: phase 5.nii.gz to phase 40.nii.gz; nothing says how far apart they"
+            " are in time") in result.stderr
+    one, other = (numpy.asarray(nibabel.load(tmp_path / f"{name}.nii.gz").dataobj) for name in ("one", "many"))
+    assert numpy.array_equal(one, other) and one.any()
+    succeed("convert", files, tmp_path / "second.nii.gz", "--frame", 2)
+    assert numpy.all(numpy.asarray(nibabel.load(tmp_path / "second.nii.gz").dataobj) == 1), "phase 10, not phase 5 or 15"
+
+
+def test_what_a_folder_of_frames_cannot_be_is_one_sentence(tmp_path, files, contours):
+    output = ("--output", tmp_path / "masks.nii.gz")
+    assert "holds 8 images, phase 5.nii.gz to phase 40.nii.gz, the frames of one" in kontur("convert", files, tmp_path / "no.nii.gz").stderr
+    assert "has no frame 9; its 8 images are 1 to 8" in kontur("convert", files, tmp_path / "no.nii.gz", "--frame", 9).stderr
+    planes = ball(1) + ball(5)
+    for plane in planes:
+        contour = plane["contours"][0]
+        contour["time_s"] = 0.04 * contour.pop("frame")
+    assert "does not say how far apart its frames are; give contours a frame" in refusal(write(tmp_path / "s.json", planes), "--image", files, *output)
+    odd = nibabel.load(files / "phase 5.nii.gz")
+    nibabel.save(nibabel.Nifti1Image(numpy.zeros((25, 25, 24), numpy.int16), odd.affine), files / "phase 12.nii.gz")
+    assert "phase 5.nii.gz and phase 12.nii.gz are no frames of one image: they have 25 x 25 x 25 and 25 x 25 x 24 voxels" in refusal(contours, "--image", files, *output)
+    shifted = odd.affine.copy()
+    shifted[2, 3] += 0.5
+    nibabel.save(nibabel.Nifti1Image(numpy.zeros((25, 25, 25), numpy.int16), shifted), files / "phase 12.nii.gz")
+    assert "their corners lie 0.5 mm apart, more than 0.002 mm" in refusal(contours, "--image", files, *output)
+    nibabel.save(nibabel.Nifti1Image(numpy.zeros((25, 25, 25, 3), numpy.int16), odd.affine), files / "phase 12.nii.gz")
+    assert "phase 12.nii.gz has 3 frames itself" in refusal(contours, "--image", files, *output)
+
+
+def test_series_of_a_folder_are_phases_where_their_names_count_them(tmp_path, cine, contours):
+    breath = tmp_path / "breath"
+    dicom.write_phases(breath, FRAMES, 25, SPACING, -HALF)
+    succeed("segment", contours, "--image", cine, "--output", tmp_path / "nifti.nii.gz")
+    unsaid = write(tmp_path / "unsaid.json", json.loads(contours.read_text())["planes"])
+    result = kontur("segment", unsaid, "--image", breath, "--output", tmp_path / "dicom.nii.gz")
+    assert result.returncode == 0, result.stderr
+    assert "the 8 frames are series in this order: 'P4 Gated, 0.0%' to 'P4 Gated, 87.5%'" in result.stderr
+    assert f"the motion repeats after 8 frames, as {breath} says; --cycle says otherwise" in result.stderr
+    one, other = (numpy.asarray(nibabel.load(tmp_path / f"{name}.nii.gz").dataobj) for name in ("nifti", "dicom"))
+    assert numpy.array_equal(one, other) and one.any()
+    result = kontur("segment", unsaid, "--image", breath, "--output", tmp_path / "masks.dcm")
+    assert result.returncode == 0, result.stderr
+    seg = pydicom.dcmread(tmp_path / "masks.dcm")
+    uids = {pydicom.dcmread(file, stop_before_pixels=True).SeriesInstanceUID for file in breath.iterdir()}
+    assert {series.SeriesInstanceUID for series in seg.ReferencedSeriesSequence} == uids and len(uids) == FRAMES
+    assert [len(series.ReferencedInstanceSequence) for series in seg.ReferencedSeriesSequence] == [25] * FRAMES
+    for file in breath.iterdir():
+        slice_ = pydicom.dcmread(file)
+        slice_.SeriesDescription = slice_.SeriesDescription.replace("%", "").replace("P4 Gated, ", "T")
+        slice_.save_as(file)
+    assert "the folder holds several series; choose one" in refusal(unsaid, "--image", breath, "--output", tmp_path / "no.nii.gz")
+
+
 def test_trace_and_convert_say_which_frame_contours_are_of(tmp_path, cine, contours):
     succeed("segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz")
     for frame in (1, 5):

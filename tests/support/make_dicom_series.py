@@ -263,6 +263,20 @@ def write_cine(folder, frames, voxels, spacing, origin):
             d.save_as(folder / f"{(7 * n + k) % 8}{n}{k}.dcm", write_like_original=False)
 
 
+def write_phases(folder, frames, voxels, spacing, origin):
+    """The same, empty, of a breath: each phase is a series, named by its per cent of the cycle."""
+    folder.mkdir()
+    for n in range(frames):
+        for k in range(voxels):
+            d = new_slice("breath", f"{n} {k}", f"phase {n}")
+            d.SeriesDescription = f"P4 Gated, {100 * n / frames:.1f}%"
+            d.Rows = d.Columns = voxels
+            d.PixelSpacing, d.SliceThickness = [spacing, spacing], spacing
+            place(d, (1, 0, 0, 0, 1, 0), (origin, origin, origin + spacing * k))
+            set_pixels(d, np.full((voxels, voxels), n))
+            d.save_as(folder / f"{(7 * n + k) % 8}{n}{k}.dcm", write_like_original=False)
+
+
 # Parametric maps (PS3.3 C.7.6.24 and C.7.6.25): element, type, bits.
 FLOATING = {"enhanced_float": ("FloatPixelData", "<f4", 32), "enhanced_double": ("DoubleFloatPixelData", "<f8", 64)}
 

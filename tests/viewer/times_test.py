@@ -7,6 +7,7 @@ import sys
 
 import nibabel
 import numpy
+import pydicom
 from support import Page, running
 
 SUPPORT = pathlib.Path(__file__).parents[1] / "support"
@@ -87,6 +88,31 @@ def test_volumes_of_a_series_are_its_times(tmp_path):
     (own, first, second), (own_of_second, *others) = values
     assert own == first and own_of_second == second and others == [first, second]
     assert first != second
+
+
+def test_series_that_are_phases_are_times_of_each_other(tmp_path):
+    dicom.write_phases(tmp_path / "breath", 5, 9, 2.0, -8.0)
+    uids = {}
+    for file in (tmp_path / "breath").iterdir():
+        slice_ = pydicom.dcmread(file)
+        uids[slice_.SeriesDescription] = slice_.SeriesInstanceUID
+    with running(tmp_path, tmp_path / "breath", "--series", uids["P4 Gated, 40.0%"], "--project", tmp_path / "a.kontur") as server:
+        page = Page(server)
+        image = page.session["image"]
+        assert (image["times"], image["time"], page.session["cycle_frames"]) == (5, 2, 5)
+        seen = [page.do("value", at=image["center"], **more)["values"][0] for more in ({}, *({"time": time} for time in range(5)))]
+        assert [shade + 1024 for shade in seen] == [2, 0, 1, 2, 3, 4]
+
+
+def test_the_files_of_a_folder_are_times_of_each_other(tmp_path):
+    folder = tmp_path / "frames"
+    folder.mkdir()
+    for name, value_ in (("b 10", 2), ("b 9", 1), ("a 1", 0)):
+        nibabel.save(nibabel.Nifti1Image(numpy.full((20, 18, 16), value_, numpy.int16), numpy.diag([2.0, 2.0, 2.0, 1.0])), folder / f"{name}.nii.gz")
+    with running(tmp_path, folder, "--frame", "2", "--project", tmp_path / "a.kontur") as server:
+        page = Page(server)
+        assert (page.session["image"]["times"], page.session["image"]["time"]) == (3, 1)
+        assert [value(page, time=time) for time in range(3)] == [0, 1, 2]
 
 
 def test_the_tags_of_a_gated_series_tell_the_cycle_until_somebody_says_otherwise(tmp_path):

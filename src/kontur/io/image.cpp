@@ -18,7 +18,11 @@
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/input_file.h"
 #include "kontur/io/bytes/text_header.h"
+#include "kontur/io/dicom/dicom_phases.h"
 #include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/image_frames.h"
+#include "kontur/io/images/frame_choice_error.h"
+#include "kontur/io/images/frame_folder.h"
 #include "kontur/io/images/gipl.h"
 #include "kontur/io/images/image_view.h"
 #include "kontur/io/images/metaimage.h"
@@ -228,6 +232,51 @@ void check_color(const std::array<double, 3>& color, const std::string& name) {
         check_from_0_to_1(std::string("the ") + kParts[n] + " of segment '" + name + "'", color[n]);
 }
 
+/// One file of a folder of frames, without its frame; nullopt: the path is no such folder. Checks the grids of all.
+std::optional<std::pair<fs::path, ReadImageOptions>> frame_of_folder(const fs::path& path, const ReadImageOptions& options) {
+    if (!is_folder(path) || looks_like_dicom(path)) return std::nullopt;
+    const std::vector<fs::path> files = frame_files(path);
+    if (files.empty()) return std::nullopt;
+    ReadImageOptions own = options;
+    own.frame.reset();
+    ReadImageOptions silent = own;
+    silent.on_note = silent.on_warning = {};
+    grid_of_frames(files, [&](const fs::path& file) {
+        if (const std::int64_t frames = read_image_frames(file, silent).count; frames > 1)
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("{} has {} frames itself, and of a folder each file is one frame; name the file alone",
+                                    file.string(), frames));
+        return read_grid(file, silent);
+    });
+    const auto count = static_cast<std::int64_t>(files.size());
+    if (!options.frame && count > 1)
+        throw FrameChoiceError(
+            fmt::format("{} holds {} images, {} to {}, the frames of one; choose one with the option frame", path.string(),
+                        count, files.front().filename().string(), files.back().filename().string()),
+            count);
+    const std::int64_t frame = options.frame.value_or(1);
+    if (frame < 1 || frame > count)
+        throw Error(ErrorKind::invalid_input, fmt::format("{} has no frame {}; its {} are 1 to {}", path.string(), frame,
+                                                          counted(files.size(), "image"), count));
+    return std::pair(files[static_cast<std::size_t>(frame) - 1], own);
+}
+
+/// Of the frame that the options name: a volume of the series, or a series that is a phase.
+DicomSeriesOptions dicom_of_frame(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+    DicomSeriesOptions dicom = options.dicom;
+    if (!options.frame || dicom.volume) return dicom;
+    const std::vector<DicomSeries> frames = list_dicom_frames(path, dicom, work);
+    const std::int64_t frame = *options.frame;
+    const auto count = static_cast<std::int64_t>(frames.size());
+    if (frame < 1 || frame > count)
+        throw Error(ErrorKind::invalid_input, fmt::format("{} has no frame {}; there {} 1 to {}", path.string(), frame,
+                                                          count > 1 ? "are" : "is", count));
+    if (frames.front().series_uid != frames.back().series_uid)
+        dicom.series_uid = frames[static_cast<std::size_t>(frame) - 1].series_uid;
+    else dicom.volume = static_cast<int>(frame);
+    return dicom;
+}
+
 }  // namespace
 
 void check_image_name(const fs::path& path) {
@@ -246,6 +295,7 @@ void check_label_value(std::int64_t value) {
 Image read_image(const fs::path& path, const ReadImageOptions& options, const Work& work) {
     check_limit(options);
     work.check();
+    if (const auto frame = frame_of_folder(path, options)) return read_image(frame->first, frame->second, work);
     switch (readable_format(path)) {
         case Format::nifti:
             return read_nifti(path, options, work);
@@ -263,7 +313,7 @@ Image read_image(const fs::path& path, const ReadImageOptions& options, const Wo
         default:
             break;
     }
-    DicomVolume volume = read_dicom_series(path, options.dicom, work);
+    DicomVolume volume = read_dicom_series(path, dicom_of_frame(path, options, work), work);
     report(volume.notes, options, volume.warnings);
     return std::move(volume.image);
 }
@@ -271,8 +321,8 @@ Image read_image(const fs::path& path, const ReadImageOptions& options, const Wo
 Image read_label_image(const fs::path& path, const ReadImageOptions& options, const Work& work) {
     Image image = read_image(path, options, work);
     if (const std::size_t rounded = round_to_labels(image); rounded > 0)
-        report({fmt::format("{}: the values of {} are no integers but lie within {:g} of one; they are rounded", path.string(),
-                            counted(rounded, "voxel"), kLabelTolerance)},
+        report({fmt::format("{}: the values of {} are no integers but lie within {:g} of one; they are rounded",
+                            path.string(), counted(rounded, "voxel"), kLabelTolerance)},
                options);
     return image;
 }
@@ -280,6 +330,7 @@ Image read_label_image(const fs::path& path, const ReadImageOptions& options, co
 Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Work& work) {
     check_limit(options);
     work.check();
+    if (const auto frame = frame_of_folder(path, options)) return read_grid(frame->first, frame->second, work);
     switch (readable_format(path)) {
         case Format::nifti:
             return read_nifti_grid(path, options);
@@ -297,7 +348,7 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Work
         default:
             break;
     }
-    const DicomGrid volume = read_dicom_grid(path, options.dicom, work);
+    const DicomGrid volume = read_dicom_grid(path, dicom_of_frame(path, options, work), work);
     report(volume.notes, options, volume.warnings);
     return volume.grid;
 }
@@ -331,7 +382,8 @@ void write_image(const fs::path& path, const Image& image, const WriteImageOptio
     for (const LabelName& name : options.names) check_color(name.color, name.name);
     const auto write_view = [&](ImageView view) {
         view.provenance = options.provenance;
-        if (!options.names.empty() && rule_for(path).format == Format::nifti) view.labels = named_labels(image, options.names);
+        if (!options.names.empty() && rule_for(path).format == Format::nifti)
+            view.labels = named_labels(image, options.names);
         write(path, view, [&] { return one_segment_each(labels_of(image, path), options.names); });
     };
     const bool has_floats = std::holds_alternative<std::vector<float>>(image.samples);

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/image_frames.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/text_header.h"
+#include "kontur/io/dicom/dicom_phases.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/images/frame_choice_error.h"
+#include "kontur/io/images/frame_folder.h"
 #include "kontur/io/images/image_view.h"
 #include "kontur/io/images/nifti.h"
 
@@ -47,11 +53,52 @@ ImageFrames frames_of(const std::vector<DicomSeries>& volumes) {
     return frames;
 }
 
+/// Nobody said what lies in a folder: the ends of the order show whether it is the one that was meant.
+std::string order_of(std::size_t count, const char* what, const std::string& first, const std::string& last) {
+    return fmt::format("the {} are {} in this order: {} to {}", counted(count, "frame"), what, first, last);
+}
+
+ImageFrames frames_of(const DicomPhases& phases) {
+    ImageFrames frames = frames_of(phases.series);
+    frames.are_volumes = false;
+    for (const DicomSeries& series : phases.series) frames.series_uids.push_back(series.series_uid);
+    constexpr double kWhole = 100;
+    if (phases.step_percent) frames.frames_per_cycle = kWhole / *phases.step_percent;
+    frames.order = order_of(frames.series_uids.size(), "series", fmt::format("'{}'", phases.series.front().description),
+                            fmt::format("'{}'", phases.series.back().description));
+    if (!phases.others.empty()) frames.order += fmt::format("; no frames are '{}'", fmt::join(phases.others, "', '"));
+    return frames;
+}
+
+ImageFrames frames_of(const std::vector<fs::path>& files) {
+    ImageFrames frames{.count = static_cast<std::int64_t>(files.size())};
+    frames.order = order_of(files.size(), "files", files.front().filename().string(), files.back().filename().string());
+    frames.order += "; nothing says how far apart they are in time";
+    return frames;
+}
+
+/// Without a file, a volume or a lone series that was chosen.
+std::optional<DicomPhases> phases_in(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored) || options.dicom.series_uid) return std::nullopt;
+    DicomPhases phases = list_dicom_phases(path, options.dicom, work);
+    return phases.series.size() > 1 ? std::optional(std::move(phases)) : std::nullopt;
+}
+
 }  // namespace
+
+ImageFrames frames_beside(const fs::path& folder, const std::string& series_uid, const Work& work) {
+    const DicomPhases phases = list_dicom_phases(folder, {.series_uid = series_uid}, work);
+    return phases.series.size() > 1 ? frames_of(phases) : ImageFrames{};
+}
 
 ImageFrames read_image_frames(const fs::path& path, const ReadImageOptions& options, const Work& work) {
     if (is_nifti_name(path)) return read_nifti_frames(path);
-    if (looks_like_dicom(path) && !is_dicom_seg(path)) return frames_of(list_dicom_volumes(path, options.dicom, work));
+    if (looks_like_dicom(path) && !is_dicom_seg(path)) {
+        const auto phases = phases_in(path, options, work);
+        return phases ? frames_of(*phases) : frames_of(list_dicom_volumes(path, options.dicom, work));
+    }
+    if (const std::vector<fs::path> files = frame_files(path); !files.empty()) return frames_of(files);
     ReadImageOptions any = options;
     any.frame.reset();
     any.max_voxels = 1;  // no voxel is read: either a frame is missing, or there are too many voxels
@@ -66,7 +113,8 @@ ImageFrames read_image_frames(const fs::path& path, const ReadImageOptions& opti
 }
 
 ReadImageOptions of_frame(ReadImageOptions options, const ImageFrames& frames, std::int64_t frame) {
-    if (frames.are_volumes) options.dicom.volume = static_cast<int>(frame);
+    if (!frames.series_uids.empty()) options.dicom.series_uid = frames.series_uids.at(static_cast<std::size_t>(frame) - 1);
+    else if (frames.are_volumes) options.dicom.volume = static_cast<int>(frame);
     else options.frame = frame;
     return options;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "kontur/base/work.h"
 #include "kontur/io/image.h"
@@ -11,9 +12,13 @@
 namespace kontur {
 
 /// How many frames an image has, and what its file says of time: NIfTI and DICOM of hearts do. Of a DICOM series the volumes
-/// are its frames. Reads no voxels. Throws as read_image does.
+/// are its frames; of a folder the images, or the DICOM series that are phases of one motion. Reads no voxels. Throws as
+/// read_image does.
 ImageFrames read_image_frames(const std::filesystem::path& path, const ReadImageOptions& options = {},
                               const Work& work = {});
+
+/// Those of which a DICOM series in a folder is one; a count of 1 where it is none. Throws as list_dicom_phases.
+ImageFrames frames_beside(const std::filesystem::path& folder, const std::string& series_uid, const Work& work = {});
 
 /// Options that read one of them, from 1.
 ReadImageOptions of_frame(ReadImageOptions options, const ImageFrames& frames, std::int64_t frame);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "kontur/base/error.h"
@@ -84,7 +85,39 @@ private:
     DicomContent content_;
 };
 
+/// Where every slice has one.
+std::optional<double> mean_of(const DicomStack& stack, std::optional<double> DicomHeader::*value) {
+    double sum = 0;
+    for (const DicomHeader& slice : stack.slices) {
+        if (!(slice.*value) || !std::isfinite(*(slice.*value))) return std::nullopt;
+        sum += *(slice.*value);
+    }
+    return sum / static_cast<double>(stack.slices.size());
+}
+
 }  // namespace
+
+DicomSeries described(const DicomStack& stack) {
+    const DicomHeader& first = stack.slices.front();
+    DicomSeries series;
+    series.series_uid = first.series_uid;
+    series.modality = first.modality;
+    series.description = first.description;
+    series.distinction = stack.distinction;
+    const bool agree = std::all_of(stack.slices.begin(), stack.slices.end(), [&](const DicomHeader& slice) {
+        return slice.frame_of_reference_uid == first.frame_of_reference_uid;
+    });
+    if (agree) series.frame_of_reference_uid = first.frame_of_reference_uid;
+    series.columns = first.columns;
+    series.rows = first.rows;
+    series.trigger_time_ms = mean_of(stack, &DicomHeader::trigger_time_ms);
+    series.beat_ms = mean_of(stack, &DicomHeader::beat_ms);
+    for (const DicomHeader& slice : stack.slices) {
+        series.files.push_back(slice.path);
+        series.frames.push_back(slice.frame.value_or(1));
+    }
+    return series;
+}
 
 std::string left_out_note(const std::string& reason, const std::vector<std::string>& names) {
     const bool one = names.size() == 1;

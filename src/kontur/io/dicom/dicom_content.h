@@ -10,6 +10,7 @@
 
 #include "kontur/base/work.h"
 #include "kontur/io/dicom/dicom_folder.h"
+#include "kontur/io/dicom/dicom_series.h"
 #include "kontur/io/dicom/dicom_stack.h"
 
 namespace kontur {
@@ -32,6 +33,9 @@ struct DicomContent {
 /// damaged. Throws Error(io).
 DicomContent read_dicom_content(const std::filesystem::path& root, const DicomFolder& folder,
                                 const std::optional<std::filesystem::path>& preferred, const Work& work);
+
+/// What users are told of a stack.
+DicomSeries described(const DicomStack& stack);
 
 /// "left out 3 files (RTSTRUCT): a.dcm, ..."
 std::string left_out_note(const std::string& reason, const std::vector<std::string>& names);

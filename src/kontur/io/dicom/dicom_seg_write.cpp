@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -207,13 +208,18 @@ public:
     }
 
     void put_image_references() {
-        DcmItem& series = append_item(document_, DCM_ReferencedSeriesSequence);
-        put(series, DCM_SeriesInstanceUID, slices_.front().series_uid);
+        std::map<std::string, DcmItem*> items;  // phases are series of their own
         std::set<std::string> named;
         for (const std::vector<DicomHeader>& slices : times_)
-            for (const DicomHeader& slice : slices)
+            for (const DicomHeader& slice : slices) {
+                DcmItem*& series = items[slice.series_uid];
+                if (!series) {
+                    series = &append_item(document_, DCM_ReferencedSeriesSequence);
+                    put(*series, DCM_SeriesInstanceUID, slice.series_uid);
+                }
                 if (named.insert(slice.sop_instance_uid).second)
-                    put_file_reference(append_item(series, DCM_ReferencedInstanceSequence), slice);
+                    put_file_reference(append_item(*series, DCM_ReferencedInstanceSequence), slice);
+            }
     }
 
     void put_dimensions() {

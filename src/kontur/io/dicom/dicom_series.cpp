@@ -29,43 +29,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kVolumesListed = 20;
 
-/// Where every slice has one.
-std::optional<double> mean_of(const DicomStack& stack, std::optional<double> DicomHeader::*value) {
-    double sum = 0;
-    for (const DicomHeader& slice : stack.slices) {
-        if (!(slice.*value) || !std::isfinite(*(slice.*value))) return std::nullopt;
-        sum += *(slice.*value);
-    }
-    return sum / static_cast<double>(stack.slices.size());
-}
-
-DicomSeries describe(const DicomStack& stack) {
-    const DicomHeader& first = stack.slices.front();
-    DicomSeries series;
-    series.series_uid = first.series_uid;
-    series.modality = first.modality;
-    series.description = first.description;
-    series.distinction = stack.distinction;
-    const bool agree = std::all_of(stack.slices.begin(), stack.slices.end(), [&](const DicomHeader& slice) {
-        return slice.frame_of_reference_uid == first.frame_of_reference_uid;
-    });
-    if (agree) series.frame_of_reference_uid = first.frame_of_reference_uid;
-    series.columns = first.columns;
-    series.rows = first.rows;
-    series.trigger_time_ms = mean_of(stack, &DicomHeader::trigger_time_ms);
-    series.beat_ms = mean_of(stack, &DicomHeader::beat_ms);
-    for (const DicomHeader& slice : stack.slices) {
-        series.files.push_back(slice.path);
-        series.frames.push_back(slice.frame.value_or(1));
-    }
-    return series;
-}
-
 std::string listed(const std::vector<DicomStack>& stacks) {
     std::string text;
     std::map<std::string, int> volume_of_series;
     for (std::size_t n = 0; n < stacks.size(); ++n) {
-        const DicomSeries series = describe(stacks[n]);
+        const DicomSeries series = described(stacks[n]);
         const int volume = ++volume_of_series[series.series_uid];
         if (n == kVolumesListed) text += fmt::format("; and {} more", stacks.size() - n);
         if (n >= kVolumesListed) continue;
@@ -293,7 +261,7 @@ std::vector<DicomSeries> list_dicom_series(const fs::path& folder, const Work& w
     const DicomContent content = read_content(folder, std::nullopt, work);
     if (content.stacks.empty() && !content.damaged.empty()) throw content.damaged.front().error;
     std::vector<DicomSeries> result;
-    for (const DicomStack& stack : content.stacks) result.push_back(describe(stack));
+    for (const DicomStack& stack : content.stacks) result.push_back(described(stack));
     return result;
 }
 
@@ -302,7 +270,7 @@ std::vector<DicomSeries> list_dicom_volumes(const fs::path& path, const DicomSer
     any_volume.volume = 1;
     return find_in(path, options, work, [&](const DicomContent& content, const std::optional<fs::path>& file) {
         std::vector<DicomSeries> volumes;
-        for (const DicomStack& stack : of_one_series(content.stacks, any_volume, file)) volumes.push_back(describe(stack));
+        for (const DicomStack& stack : of_one_series(content.stacks, any_volume, file)) volumes.push_back(described(stack));
         return volumes;
     });
 }
@@ -334,7 +302,7 @@ DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& op
     if (!located.resampled.empty())
         volume.image.samples = at_slices(volume.image.samples, located.resampled,
                                          static_cast<std::size_t>(located.grid.size.i * located.grid.size.j));
-    volume.series = describe(located.stack);
+    volume.series = described(located.stack);
     volume.notes = std::move(located.notes);
     volume.warnings = std::move(located.warnings);
     return volume;
@@ -342,7 +310,7 @@ DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& op
 
 DicomGrid read_dicom_grid(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
     ChosenStack located = locate(path, options, work);
-    return {located.grid, describe(located.stack), std::move(located.notes), std::move(located.warnings)};
+    return {located.grid, described(located.stack), std::move(located.notes), std::move(located.warnings)};
 }
 
 }  // namespace kontur

@@ -3,20 +3,26 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace kontur {
 
 /// The frames of an image over time.
 struct ImageFrames {
     std::int64_t count = 1;
-    std::optional<double> step_s{};   ///< from one to the next; unset: the file does not say, or it varies
-    std::optional<double> cycle_s{};  ///< after which the motion repeats; unset: the file does not say
-    bool are_volumes = false;         ///< of a DICOM series
+    std::optional<double> step_s{};            ///< from one to the next; unset: the file does not say, or it varies
+    std::optional<double> cycle_s{};           ///< after which the motion repeats; unset: the file does not say
+    bool are_volumes = false;                  ///< of a DICOM series
+    std::vector<std::string> series_uids{};    ///< of DICOM series, one for each frame; else empty
+    std::optional<double> frames_per_cycle{};  ///< where the file says so without times, as per cents of a breath do
+    std::string order{};                       ///< of frames in files or series of their own: a sentence on it; else empty
 
     /// The cycle in frames; unset, too, where it would end before the last frame.
     std::optional<double> cycle_frames() const {
-        if (!step_s || !cycle_s || !(*step_s > 0)) return std::nullopt;
-        const double frames = *cycle_s / *step_s;
+        const bool has_times = step_s && cycle_s && *step_s > 0;
+        if (!has_times && !frames_per_cycle) return std::nullopt;
+        const double frames = has_times ? *cycle_s / *step_s : *frames_per_cycle;
         return frames > static_cast<double>(count - 1) ? std::optional(frames) : std::nullopt;
     }
 };

@@ -126,7 +126,9 @@ export class FolderView {
     const { folders, files, left_out, dicom } = this.shown;
     const wanted = this.filter.value.trim().toLowerCase();
     const fits = ({ name }: Place) => name.toLowerCase().includes(wanted);
+    const images = files.filter((file) => file.kind === "image" && !file.name.toLowerCase().endsWith(".seg.nrrd"));
     const rows = [
+      ...(dicom === "none" && images.length > 1 && left_out === 0 ? [this.framesRow(images.length)] : []),
       ...folders.filter(fits).map((one) => this.folderRow(one)),
       ...files.filter((file) => fits(file) && (file.kind === "image" || !this.words.onlyImages)).map((one) => this.fileRow(one)),
     ];
@@ -140,6 +142,18 @@ export class FolderView {
   private folderRow({ name, path }: Place): Piece {
     const row = buttonPiece({ icon: ICONS.folder, label: name, title: path, class: "start-row folder", test: "folder", click: () => void this.go(path) });
     return piece("li", { key: path }, row);
+  }
+
+  /** Of a folder with a file for each frame. */
+  private framesRow(count: number): Piece {
+    const { path } = this.shown!;
+    const label = `These ${count} images as frames over time`;
+    const title = "Opens the folder: the files are frames of one image, in the order in which their names count";
+    return piece(
+      "li",
+      { key: "frames" },
+      buttonPiece({ icon: ICONS.play, label, title, class: "start-row frames", test: "frames", click: () => this.services.open({ path }) }),
+    );
   }
 
   private fileRow(file: ListedFile): Piece {

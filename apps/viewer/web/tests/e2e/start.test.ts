@@ -49,6 +49,11 @@ async function enter(viewer: Viewer, name: string): Promise<void> {
   await viewer.page.waitForSelector(`[data-test=entries][data-folder$="/${name}"]`);
 }
 
+async function picture(viewer: Viewer, name: string): Promise<void> {
+  const into = process.env["KONTUR_PICTURES"];
+  if (into) await viewer.page.screenshot({ path: join(into, `${name}.png`) });
+}
+
 async function axeFindings(viewer: Viewer): Promise<string[]> {
   await viewer.page.evaluate(AXE);
   return viewer.page.evaluate(async () => {
@@ -291,5 +296,36 @@ describe("the start page", () => {
     await viewer.page.click("[data-test=frame-open]");
     await viewer.ready();
     assert.deepEqual(viewer.complaints, []);
+  });
+
+  test("opens the images of a folder as frames over time, and says where they are none", async () => {
+    const phases = join(home, "scans", "old", "phases");
+    mkdirSync(phases);
+    [2, 10, 1].forEach((n) => copyFileSync(join(home, "scans", "ball.nii"), join(phases, `phase ${n}.nii`)));
+    const viewer = await visit();
+    const { page } = viewer;
+    await viewer.type(page.locator("[data-test=path]"), phases);
+    await page.keyboard.press("Enter");
+    await page.locator("[data-test=frames]", { hasText: "These 3 images as frames over time" }).waitFor();
+    await picture(viewer, "folder_of_frames_offered");
+    await page.click("[data-test=frames]");
+    await page.locator("[data-test=start-problem]", { hasText: "has 3 frames. Which one is to be opened?" }).waitFor();
+    await viewer.type(page.locator("[data-test=frame]"), "2");
+    await page.waitForSelector("[data-test=frame-picture][data-frame='1'][data-painted=true]");
+    await page.keyboard.press("Enter");
+    await viewer.ready();
+    assert.equal(await page.locator("[data-test=time-frame]").textContent(), "2 / 3");
+    await page.keyboard.press(".");
+    assert.equal(await page.locator("[data-test=time-frame]").textContent(), "3 / 3");
+    await viewer.slicesShown();
+    await picture(viewer, "folder_of_frames");
+    await page.click("[data-test=another]");
+    copyFileSync(join(home, "study", "beating.nii"), join(phases, "phase 3.nii"));
+    await viewer.type(page.locator("[data-test=path]"), phases);
+    await page.keyboard.press("Enter");
+    await page.locator("[data-test=frames]", { hasText: "These 4 images" }).click();
+    await page.locator("[data-test=start-problem]", { hasText: "phase 3.nii has 3 frames itself" }).waitFor();
+    assert.deepEqual(viewer.complaints, []);
+    await page.close();
   });
 });

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <future>
 #include <utility>
@@ -21,6 +22,10 @@
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/bytes/png.h"
+#include "kontur/io/contours_in_time.h"
+#include "kontur/io/dicom/dicom_phases.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/image_frames.h"
 #include "kontur/io/meshes/mesh.h"
 #include "kontur/segment_report.h"
 #include "kontur/sureness/surface_evidence.h"
@@ -177,6 +182,23 @@ void check_words(const SegmentCommand& command) {
         throw Error(ErrorKind::invalid_input, "--together is for several ROIs; name them by --roi, or --all-rois");
 }
 
+/// Structure sets say by the slices that they refer to in which frame of the images they were drawn; where all of them lie
+/// in one frame, that is the one to read.
+void place_in_time(SegmentCommand& command, ReadContours& read) {
+    ImageInput& image = command.image;
+    const bool has_choice = image.options.frame || image.options.dicom.volume;
+    if (image.path.empty() || has_choice || std::ranges::none_of(command.contours, is_rtstruct)) return;
+    if (!looks_like_dicom(image.path) || is_dicom_seg(image.path)) return;
+    const ImageFrames frames = read_image_frames(image.path, image.options);
+    if (frames.count < 2) return;
+    read = read_contours_in_time(command.contours, command.read, list_dicom_frames(image.path, image.options.dicom));
+    const auto& contours = read.contours.contours;
+    const std::optional<double> frame = contours.empty() ? std::nullopt : contours.front().frame;
+    if (!frame || std::ranges::any_of(contours, [&](const Contour& one) { return one.frame != frame; })) return;
+    image.options = of_frame(image.options, frames, static_cast<std::int64_t>(*frame));
+    read.notes.push_back(fmt::format("all contours refer to frame {} of {}, which is read", *frame, image.path.string()));
+}
+
 void run(const SegmentCommand& words, Console& console) {
     SegmentCommand command = words;
     if (command.rois.size() == 1) command.read.roi = command.rois.front();
@@ -187,6 +209,7 @@ void run(const SegmentCommand& words, Console& console) {
     check_files(command);
     if (has_several(command)) return segment_rois(command, console);
     ReadContours contours = read_contours_to_fit(command.contours, command.read);
+    place_in_time(command, contours);
     if (is_moving(command, contours.contours)) return segment_moving(command, std::move(contours), console);
     if (command.cycle) throw Error(ErrorKind::invalid_input, "--cycle is for contours that were drawn at several moments");
     if (is_animation(command))

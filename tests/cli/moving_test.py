@@ -287,6 +287,49 @@ def test_series_of_a_folder_are_phases_where_their_names_count_them(tmp_path, ci
     assert "the folder holds several series; choose one" in refusal(unsaid, "--image", breath, "--output", tmp_path / "no.nii.gz")
 
 
+@pytest.fixture(name="drawn_in_time")
+def drawn_in_time_fixture(tmp_path, beats):
+    """Contours on slices in frames 1 and 5, as JSON, and as a structure set for each that refers to that frame's slices."""
+    offsets = (-6.0, -1.5, 1.5, 6.0)
+    for frame in (1, 5):
+        planes = ball(frame, offsets)
+        for plane in planes:
+            del plane["contours"][0]["frame"]
+        write(tmp_path / f"{frame}.json", planes)
+        succeed("convert", tmp_path / f"{frame}.json", tmp_path / f"{frame}.dcm", "--image", beats, "--volume", frame)
+    return write(tmp_path / "both.json", ball(1, offsets) + ball(5, offsets))
+
+
+def voxels(path):
+    return numpy.asarray(nibabel.load(path).dataobj)
+
+
+def test_contours_of_a_structure_set_are_of_the_frame_whose_slices_they_refer_to(tmp_path, beats, drawn_in_time):
+    def segment(output, *drawn):
+        result = kontur("segment", *drawn, "--image", beats, "--output", tmp_path / output)
+        assert result.returncode == 0, result.stderr
+        return result.stderr
+
+    segment("json.nii.gz", drawn_in_time)
+    segment("two.nii.gz", tmp_path / "1.dcm", tmp_path / "5.dcm")
+    assert numpy.array_equal(voxels(tmp_path / "two.nii.gz"), voxels(tmp_path / "json.nii.gz"))
+    one, other = (pydicom.dcmread(tmp_path / f"{frame}.dcm") for frame in (1, 5))
+    contours = one.ROIContourSequence[0].ContourSequence
+    assert len(contours) == 4
+    for contour in other.ROIContourSequence[0].ContourSequence:
+        contours.append(contour)
+    one.save_as(tmp_path / "joined.dcm")
+    segment("joined.nii.gz", tmp_path / "joined.dcm")
+    assert numpy.array_equal(voxels(tmp_path / "joined.nii.gz"), voxels(tmp_path / "json.nii.gz"))
+    assert f"all contours refer to frame 5 of {beats}, which is read" in segment("fifth.nii.gz", tmp_path / "5.dcm")
+    del contours[0].ContourImageSequence
+    one.save_as(tmp_path / "partly.dcm")
+    result = kontur("segment", tmp_path / "partly.dcm", "--image", beats, "--volume", 1, "--output", tmp_path / "partly.nii.gz")
+    assert result.returncode == 0, "all of one moment where a volume is chosen"
+    result = kontur("segment", tmp_path / "partly.dcm", "--image", beats, "--output", tmp_path / "no.nii.gz")
+    assert "the series holds several volumes" in result.stderr
+
+
 def test_trace_and_convert_say_which_frame_contours_are_of(tmp_path, cine, contours):
     succeed("segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz")
     for frame in (1, 5):

@@ -17,7 +17,8 @@
 #include "kontur/io/contours/contour_json.h"
 #include "kontur/io/contours/markups.h"
 #include "kontur/io/contours/vtk_contours.h"
-#include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/contours_in_time.h"
+#include "kontur/io/dicom/rtstruct_in_time.h"
 #include "kontur/io/meshes/polydata.h"
 
 namespace kontur {
@@ -45,8 +46,8 @@ bool is_json(std::string_view head) {
     return start != std::string_view::npos && (head[start] == '{' || head[start] == '[');
 }
 
-ReadContours read_roi(const fs::path& path, const ReadContoursOptions& options) {
-    const StructureSet set = read_rtstruct(path);
+ReadContours read_roi(const fs::path& path, const ReadContoursOptions& options, const std::vector<DicomSeries>& frames) {
+    const StructureSet set = read_rtstruct_in_time(path, frames);
     return in_context(path.string(), [&] {
         Roi roi = select_roi(set, options.roi);
         ReadContours found{std::move(roi.contours), std::move(roi.frame_of_reference_uid), set.notes};
@@ -104,9 +105,10 @@ void check_curves(const ReadContoursOptions& options, const std::vector<fs::path
     throw Error(ErrorKind::invalid_input, "--curves is for 3D Slicer's markups (.mrk.json), and there are none");
 }
 
-ReadContours read_one(const fs::path& path, const ReadContoursOptions& options, Splines& splines) {
+ReadContours read_one(const fs::path& path, const ReadContoursOptions& options, Splines& splines,
+                      const std::vector<DicomSeries>& frames = {}) {
     const std::string head = head_of(path);
-    if (is_dicom(path, head)) return read_roi(path, options);
+    if (is_dicom(path, head)) return read_roi(path, options, frames);
     if (is_polydata(path, head)) return read_polylines(path, options);
     if (!is_json(head))
         throw Error(ErrorKind::unsupported,
@@ -135,6 +137,11 @@ ReadContours read_contours(const fs::path& path, const ReadContoursOptions& opti
 }
 
 ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
+    return read_contours_in_time(paths, options, {});
+}
+
+ReadContours read_contours_in_time(const std::vector<fs::path>& paths, const ReadContoursOptions& options,
+                                   const std::vector<DicomSeries>& frames) {
     check_tolerance(options);
     check_curves(options, paths);
     ReadContours all;
@@ -143,7 +150,7 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
     ReadContoursOptions of_others = options;
     if (options.roi && std::any_of(paths.begin(), paths.end(), is_structure_set)) of_others.roi.reset();
     for (const fs::path& path : paths) {
-        const ReadContours one = read_one(path, is_structure_set(path) ? options : of_others, splines);
+        const ReadContours one = read_one(path, is_structure_set(path) ? options : of_others, splines, frames);
         if (all.contours.name.empty()) all.contours.name = one.contours.name;
         if (all.contours.attributes == StructureAttributes{}) all.contours.attributes = one.contours.attributes;
         if (all.frame_of_reference_uid.empty()) all.frame_of_reference_uid = one.frame_of_reference_uid;

@@ -3,6 +3,7 @@
 
 // Private to io/: what the stored contours of a ROI mean (DICOM PS3.3 C.8.8.6).
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace kontur {
 struct StoredContour {
     std::string type;  ///< ContourGeometricType: "CLOSED_PLANAR", "POINT", ...
     std::vector<Vec3> points;
+    std::optional<std::size_t> frame{};  ///< to whose slices alone it refers, from 0
 };
 
 struct InterpretedContours {

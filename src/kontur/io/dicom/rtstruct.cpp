@@ -5,18 +5,23 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/dicom/dcmtk.h"
 #include "kontur/io/dicom/decimal_string.h"
+#include "kontur/io/dicom/dicom_document.h"
 #include "kontur/io/dicom/dicom_header.h"
 #include "kontur/io/dicom/roi_attributes.h"
 #include "kontur/io/dicom/roi_contours.h"
 #include "kontur/io/dicom/rtstruct_approval.h"
+#include "kontur/io/dicom/rtstruct_in_time.h"
 
 namespace kontur {
 namespace {
@@ -37,8 +42,33 @@ std::string_view contour_data(DcmItem& item) {
     throw corrupt("its ContourData cannot be read");
 }
 
-StoredContour read_contour(DcmItem& item) {
+/// Which volume in time a slice belongs to: by its file's UID and its frame in there.
+class FrameOfSlice {
+public:
+    explicit FrameOfSlice(const std::vector<DicomSeries>& frames) {
+        for (std::size_t n = 0; n < frames.size(); ++n)
+            for (const DicomHeader& slice : read_slice_headers(frames[n]))
+                frames_.emplace(std::pair(slice.sop_instance_uid, slice.frame.value_or(1)), n);
+    }
+
+    /// nullopt: it refers to no slice, or to slices of several volumes.
+    std::optional<std::size_t> of(DcmItem& contour) const {
+        std::set<std::optional<std::size_t>> found;
+        for (DcmItem* image : dcmtk::items(contour, DCM_ContourImageSequence)) {
+            const auto in_file = dcmtk::integer(*image, DCM_ReferencedFrameNumber).value_or(1);
+            const auto frame = frames_.find({dcmtk::text(*image, DCM_ReferencedSOPInstanceUID), in_file});
+            found.insert(frame == frames_.end() ? std::nullopt : std::optional(frame->second));
+        }
+        return found.size() == 1 ? *found.begin() : std::nullopt;
+    }
+
+private:
+    std::map<std::pair<std::string, std::int64_t>, std::size_t> frames_;
+};
+
+StoredContour read_contour(DcmItem& item, const FrameOfSlice& frames) {
     StoredContour contour;
+    contour.frame = frames.of(item);
     contour.type = dcmtk::text(item, DCM_ContourGeometricType);
     const std::vector<double> values = parse_decimal_string(contour_data(item));
     if (values.size() % 3 != 0)
@@ -54,10 +84,10 @@ StoredContour read_contour(DcmItem& item) {
     return contour;
 }
 
-void append_contours(DcmItem& roi_contour, std::vector<StoredContour>& contours) {
+void append_contours(DcmItem& roi_contour, const FrameOfSlice& frames, std::vector<StoredContour>& contours) {
     for (DcmItem* item : dcmtk::items(roi_contour, DCM_ContourSequence)) {
         try {
-            contours.push_back(read_contour(*item));
+            contours.push_back(read_contour(*item, frames));
         } catch (const Error& error) {
             throw error.with_context(fmt::format("contour {}", contours.size() + 1));
         }
@@ -91,14 +121,38 @@ Roi* find_roi(std::vector<Roi>& rois, std::int64_t number) {
     return found == rois.end() ? nullptr : &*found;
 }
 
+/// Each frame's by themselves: a ring is no hole of another frame's.
+InterpretedContours interpret_in_time(const std::vector<StoredContour>& stored) {
+    std::map<std::optional<std::size_t>, std::vector<StoredContour>> of_frames;
+    for (const StoredContour& contour : stored) of_frames[contour.frame].push_back(contour);
+    if (of_frames.empty() || of_frames.contains(std::nullopt)) {
+        InterpretedContours all = interpret_contours(stored);
+        if (of_frames.size() > 1)
+            all.notes.push_back(fmt::format("{} of {} refer to slices of no frame or of several, so all are of no frame",
+                                            of_frames.at(std::nullopt).size(), counted(stored.size(), "contour")));
+        return all;
+    }
+    InterpretedContours all;
+    for (const auto& [frame, contours] : of_frames) {
+        InterpretedContours one = interpret_contours(contours);
+        for (Contour& contour : one.contours) {
+            contour.frame = static_cast<double>(*frame + 1);
+            all.contours.push_back(std::move(contour));
+        }
+        std::move(one.surface.begin(), one.surface.end(), std::back_inserter(all.surface));
+        for (const std::string& note : one.notes) all.notes.push_back(fmt::format("frame {}: {}", *frame + 1, note));
+    }
+    return all;
+}
+
 /// The items that hold the contours of one ROI: one, but some programs write several.
-void read_roi_contours(Roi& roi, const std::vector<DcmItem*>& items) {
+void read_roi_contours(Roi& roi, const std::vector<DcmItem*>& items, const FrameOfSlice& frames) {
     std::vector<StoredContour> stored;
     for (DcmItem* item : items) {
         read_roi_contour(*item, roi.contours.attributes);
-        append_contours(*item, stored);
+        append_contours(*item, frames, stored);
     }
-    InterpretedContours interpreted = interpret_contours(stored);
+    InterpretedContours interpreted = interpret_in_time(stored);
     roi.contours.contours = std::move(interpreted.contours);
     roi.contours.surface = std::move(interpreted.surface);
     roi.notes = std::move(interpreted.notes);
@@ -109,9 +163,9 @@ void read_roi_contours(Roi& roi, const std::vector<DcmItem*>& items) {
 }
 
 /// Damage in one ROI says nothing about the others.
-void read_roi_contours_or_damage(Roi& roi, const std::vector<DcmItem*>& items) {
+void read_roi_contours_or_damage(Roi& roi, const std::vector<DcmItem*>& items, const FrameOfSlice& frames) {
     try {
-        read_roi_contours(roi, items);
+        read_roi_contours(roi, items, frames);
     } catch (const Error& error) {
         roi.damage = error.with_context(fmt::format("ROI {} '{}'", roi.number, roi.name)).what();
     }
@@ -126,7 +180,7 @@ void note_unlisted(StructureSet& set, std::string_view what, const std::set<std:
             : fmt::format("left out {} of {} ROIs that are not listed: {}", what, numbers.size(), fmt::join(numbers, ", ")));
 }
 
-void read_all_contours(StructureSet& set, DcmItem& dataset) {
+void read_all_contours(StructureSet& set, DcmItem& dataset, const FrameOfSlice& frames) {
     std::map<std::int64_t, std::vector<DcmItem*>> items;
     std::set<std::int64_t> unlisted;
     for (DcmItem* item : dcmtk::items(dataset, DCM_ROIContourSequence)) {
@@ -135,7 +189,8 @@ void read_all_contours(StructureSet& set, DcmItem& dataset) {
         else unlisted.insert(number);
     }
     note_unlisted(set, "contours", unlisted);
-    for (const auto& [number, its_items] : items) read_roi_contours_or_damage(*find_roi(set.rois, number), its_items);
+    for (const auto& [number, its_items] : items)
+        read_roi_contours_or_damage(*find_roi(set.rois, number), its_items, frames);
 }
 
 void read_observations(StructureSet& set, DcmItem& dataset) {
@@ -148,7 +203,7 @@ void read_observations(StructureSet& set, DcmItem& dataset) {
     note_unlisted(set, "observations", unlisted);
 }
 
-StructureSet read_structure_set(DcmItem& dataset) {
+StructureSet read_structure_set(DcmItem& dataset, const FrameOfSlice& frames) {
     const std::string modality = dcmtk::text(dataset, DCM_Modality);
     if (modality != "RTSTRUCT")
         throw Error(ErrorKind::invalid_input, fmt::format("is no RT structure set but DICOM of modality '{}'", modality));
@@ -157,7 +212,7 @@ StructureSet read_structure_set(DcmItem& dataset) {
     StructureSet set;
     set.label = dcmtk::text(dataset, DCM_StructureSetLabel);
     set.rois = read_roi_list(dataset);
-    read_all_contours(set, dataset);
+    read_all_contours(set, dataset, frames);
     read_observations(set, dataset);
     read_approval(dataset, set);
     return set;
@@ -195,14 +250,16 @@ bool is_rtstruct(const std::filesystem::path& path) {
     return dcmtk::text(*file.getDataset(), DCM_Modality) == "RTSTRUCT";
 }
 
-StructureSet read_rtstruct(const std::filesystem::path& path) {
+StructureSet read_rtstruct(const std::filesystem::path& path) { return read_rtstruct_in_time(path, {}); }
+
+StructureSet read_rtstruct_in_time(const std::filesystem::path& path, const std::vector<DicomSeries>& frames) {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored) && !has_dicom_prefix(path))
         throw Error(ErrorKind::invalid_input, path.string() + ": is no DICOM file");
     DcmFileFormat file;
     dcmtk::load(file, path);
     try {
-        return read_structure_set(*file.getDataset());
+        return read_structure_set(*file.getDataset(), FrameOfSlice(frames));
     } catch (const Error& error) {
         throw error.with_context(path.string());
     }

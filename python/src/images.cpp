@@ -54,9 +54,9 @@ void bind_frames(py::module_& m, const Keywords<ReadImageOptions>& keywords) {
     py::class_<ImageFrames> frames(m, "ImageFrames", "The frames of an image over time.");
     frames.def_readonly("count", &ImageFrames::count, "int: how many there are; `read_image` takes a frame from 1 to this.");
     frames.def_readonly("step_s", &ImageFrames::step_s,
-                        "float, optional: seconds from one to the next; None where the file does not say, or it varies.");
+                        "float or None: seconds from one to the next; None where the file does not say, or it varies.");
     frames.def_property_readonly("cycle_frames", &ImageFrames::cycle_frames,
-                                 "float, optional: after so many the motion repeats; None where the file does not say.");
+                                 "float or None: after so many the motion repeats; None where the file does not say.");
     frames.def_readonly("order", &ImageFrames::order,
                         "str: of frames in files or series of their own, which comes first and last; else empty.");
     const std::string help =

@@ -166,13 +166,13 @@ def editing(results):
     return table(header, rows)
 
 
-WHAT_CORRECTING = {"opened": "mask opened", "edited": "edit to surface", "anew": "edit to surface, nothing kept"}
+WHAT_CORRECTING = {"opened": "opened", "edited": "edited", "anew": "edited, nothing kept"}
 
 
 def correcting(results):
-    rows = [[case_name(row["case"]), WHAT_CORRECTING[row["what"]], count(row["voxels"]), seconds(row["seconds"]),
-             seconds(row["cpu_s"])] for row in results["correcting"]]
-    return table(["mask", "", "voxels", "seconds", "CPU s"], rows)
+    rows = [[f"{case_name(row['case'])} {WHAT_CORRECTING[row['what']]}", seconds(row["seconds"]), seconds(row["cpu_s"])]
+            for row in results["correcting"]]
+    return table(["mask", "seconds", "CPU s"], rows)
 
 
 def stages(results):

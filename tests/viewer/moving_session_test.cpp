@@ -28,9 +28,9 @@ constexpr int kTimes = 6, kOwn = 2;
 /// A session on a flat image of six frames, opened at the third.
 struct BeatingSession {
     TemporaryFolder folder;
-    std::unique_ptr<Session> session;
     std::vector<json> events;
     std::mutex mutex;
+    std::unique_ptr<Session> session;  ///< last: its threads tell events
 
     BeatingSession() { open(); }
 

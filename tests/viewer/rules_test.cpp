@@ -125,6 +125,15 @@ TEST(Rules, AUsedStructureStays) {
     visit.done({{"call", "structure.remove"}, {"id", visit.tumour}});
 }
 
+TEST(Rules, ANewNameChangesAllThatUseIt) {
+    Visit visit;
+    std::vector<Id> rules;
+    for (const std::string name : {"A", "B", "C", "D"}) rules.push_back(visit.rule(name + " = Tumour + 2 mm"));
+    visit.done({{"call", "structure.set"}, {"id", visit.tumour}, {"name", "Gross tumour volume of the left side"}});
+    for (const Id id : rules)
+        EXPECT_EQ(visit.known(id).rule, visit.known(id).name + " = 'Gross tumour volume of the left side' + 2 mm");
+}
+
 TEST(Rules, ANewNameChangesThem) {
     Visit visit;
     const Id a = visit.rule("A = Tumour + 2 mm"), b = visit.rule("B = A + 2 mm");

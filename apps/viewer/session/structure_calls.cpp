@@ -123,18 +123,18 @@ void settle_planes(const State& state, const Structure& before, Structure& after
 /// Rules call a renamed structure by its new name.
 void rename_in_rules(const State& state, Commit& step) {
     const Structure before = *step.structures.front().before;
-    Structure& after = *step.structures.front().after;
-    check_name_is_free(state, after.name);
+    const std::string name = step.structures.front().after->name;
+    check_name_is_free(state, name);
     if (!before.rule && users_of(state, before.id).empty()) return;
     for (const auto& [id, other] : state.structures)
-        if (id != before.id && other.name == after.name)
+        if (id != before.id && other.name == name)
             throw Error(ErrorKind::invalid_input,
-                        fmt::format("there is a structure named {}, and rules could not tell the two apart", after.name));
-    if (after.rule) after.rule = with_name(*after.rule, before.name, after.name);
+                        fmt::format("there is a structure named {}, and rules could not tell the two apart", name));
+    if (std::optional<std::string>& rule = step.structures.front().after->rule) rule = with_name(*rule, before.name, name);
     for (const auto& [id, other] : state.structures) {
         if (id == before.id || !other.rule) continue;
         Structure renamed = other;
-        renamed.rule = with_name(*other.rule, before.name, after.name);
+        renamed.rule = with_name(*other.rule, before.name, name);
         if (renamed != other) step.structures.push_back({id, other, renamed});
     }
 }

@@ -203,7 +203,8 @@ TEST(MovingSession, WhatWasDrawnInOneFrameIsWhatItWas) {
     const json drawn = json::parse(here.session->exported("contours.json", id).bytes);
     for (const json& plane : drawn["planes"])
         for (const json& contour : plane["contours"]) EXPECT_FALSE(contour.contains("frame"));
-    for (const json& contour : json::parse(here.session->greeting())["contours"]) EXPECT_FALSE(contour.contains("time"));
+    const json greeting = json::parse(here.session->greeting());
+    for (const json& contour : greeting["contours"]) EXPECT_FALSE(contour.contains("time"));
     for (const json& event : here.events) EXPECT_NE(event["event"], "motion");
     EXPECT_THROW(here.session->exported("masks.nii.gz", id), Error);
     // A contour of the opened frame that says so is one that does not.

@@ -92,19 +92,12 @@ def test_a_document_is_filled_between_its_markers_and_stays_as_it_is_elsewhere(j
         assert "old" not in text and text.count("after\n") == len(names) and all(f"before {n}\n" in text for n in names)
 
 
-def test_the_published_tables_are_made_from_the_published_results(tmp_path):
-    published = (DOCS / "performance.md").read_text()
-    copy = tmp_path / "performance.md"
+@pytest.mark.parametrize("page, results", [("performance.md", "performance.json"), ("correct.md", "correcting.json")])
+def test_the_published_tables_are_made_from_the_published_results(page, results, tmp_path):
+    published = (DOCS / page).read_text()
+    copy = tmp_path / page
     copy.write_text(published)
-    subprocess.run([sys.executable, TABLES, TABLES.with_name("results") / "performance.json", copy], check=True)
-    assert copy.read_text() == published
-
-
-def test_the_table_of_corrections_is_made_from_the_published_results(tmp_path):
-    published = (DOCS / "correct.md").read_text()
-    copy = tmp_path / "correct.md"
-    copy.write_text(published)
-    subprocess.run([sys.executable, TABLES, TABLES.with_name("results") / "correcting.json", copy], check=True)
+    subprocess.run([sys.executable, TABLES, TABLES.with_name("results") / results, copy], check=True)
     assert copy.read_text() == published
 
 

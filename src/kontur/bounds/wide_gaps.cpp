@@ -8,8 +8,8 @@
 namespace kontur {
 namespace {
 
-// Of the gaps before and after. Half of it names stacks whose planes someone left out; twice is silent on two bodies 9 mm apart
-// in slices of 3 mm.
+// Of the gaps before and after. Half of it names stacks whose planes someone left out; twice is silent on two bodies 9 mm
+// apart in slices of 3 mm.
 constexpr double kWide = 2.5;
 
 bool overlap(const DrawnRegion& region, const Section& other) {

@@ -6,23 +6,10 @@
 #include <span>
 
 #include "kontur/base/distance_transform.h"
+#include "kontur/correct/mask_part.h"
 #include "kontur/shape/inside_box.h"
 
 namespace kontur {
-namespace {
-
-/// Which voxels of a box of its grid a mask leaves out.
-std::vector<std::uint8_t> left_out(const Mask& mask, const IndexBox& box) {
-    std::vector<std::uint8_t> marked;
-    marked.reserve(static_cast<std::size_t>(grid_of(mask.grid, box).voxel_count()));
-    for (std::int64_t k = box.low.k; k <= box.high.k; ++k)
-        for (std::int64_t j = box.low.j; j <= box.high.j; ++j)
-            for (std::int64_t i = box.low.i; i <= box.high.i; ++i)
-                marked.push_back(mask.values[mask.grid.offset(i, j, k)] == 0);
-    return marked;
-}
-
-}  // namespace
 
 std::vector<CededVoxel> ceded_voxels(const Mask& before, const Mask& after, const Work& work) {
     const Grid& grid = before.grid;
@@ -30,7 +17,9 @@ std::vector<CededVoxel> ceded_voxels(const Mask& before, const Mask& after, cons
     if (!inside) return {};
     const IndexBox box = inside->padded({1, 1, 1}, grid.size);
     const Index3 size = box.size();
-    const DistanceTransform nearest = distance_transform(size, grid.spacing_mm(), left_out(before, box), work);
+    std::vector<std::uint8_t> left_out = part_of(before, box).values;
+    for (std::uint8_t& value : left_out) value = value == 0;
+    const DistanceTransform nearest = distance_transform(size, grid.spacing_mm(), left_out, work);
     const auto offset_of = [&](std::size_t in_box) {
         const Index3 at = index_at(in_box, size);
         return grid.offset(at.i + box.low.i, at.j + box.low.j, at.k + box.low.k);

@@ -54,7 +54,7 @@ struct CorrectReport {
     std::vector<std::string> warnings;
 };
 
-/// "1,840 voxels changed (3.2 ml less), up to 9 mm beside the drawn planes" for people.
+/// "1840 voxels changed, 1510 of them beside the drawn planes; 3.2 ml less, 1540.6 ml in all" for people.
 std::string sentence(const CorrectReport& report);
 
 /// Throws Error(invalid_input) for options out of their range.

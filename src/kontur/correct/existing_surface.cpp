@@ -19,7 +19,7 @@ constexpr double kSmoothingVoxels = 0.7;  ///< standard deviation
 constexpr int kTaps = 3;                  ///< on each side
 constexpr double kLeastVoxels = 0.05;     ///< f0 at a voxel's centre is no nearer to 0, in the smallest voxel side
 constexpr std::int64_t kMargin = 3;       ///< voxels around the object at least
-constexpr double kWindowLengths = 1;      ///< around it. Half and 3.2 times of it: mean Dice within .00005 (bench/correct.py)
+constexpr double kWindowLengths = 1;      ///< around it. Half and 3.2 times: mean Dice within .00005 (bench/correct.py)
 
 std::optional<IndexBox> inside_box(const Mask& mask) {
     return inside_box(mask.grid.size, std::span(mask.values), [](std::uint8_t v) { return v != 0; });

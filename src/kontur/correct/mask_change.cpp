@@ -15,6 +15,7 @@
 #include "kontur/correct/change.h"
 #include "kontur/correct/corrected_section.h"
 #include "kontur/correct/correction_data.h"
+#include "kontur/correct/mask_part.h"
 #include "kontur/correct/reach_by_image.h"
 #include "kontur/measure/components.h"
 
@@ -90,18 +91,6 @@ IndexBox box_with(IndexBox box, const std::vector<Voxel>& voxels, const Index3& 
         box = box_around(box, {at, at});
     }
     return box;
-}
-
-/// A box of a mask.
-Mask part_of(const Mask& mask, const IndexBox& box) {
-    Mask part{grid_of(mask.grid, box), {}};
-    part.values.reserve(static_cast<std::size_t>(part.grid.voxel_count()));
-    for (std::int64_t k = box.low.k; k <= box.high.k; ++k)
-        for (std::int64_t j = box.low.j; j <= box.high.j; ++j) {
-            const auto row = mask.values.begin() + static_cast<std::ptrdiff_t>(mask.grid.offset(box.low.i, j, k));
-            part.values.insert(part.values.end(), row, row + box.size().i);
-        }
-    return part;
 }
 
 /// Finds the pieces that hang loose, in the box of all that is or was inside.

@@ -17,9 +17,10 @@ namespace kontur {
 
 /// Reads a scalar image: NIfTI, NRRD, MetaImage, FreeSurfer's MGH, GIPL, a DICOM series by its folder or one of its files,
 /// or the label map of a DICOM segmentation (whose segments must not overlap, unless `read_mask` is asked for one), or a
-/// folder with a file of these for each frame, of one grid. The file's name says which, else its content. Geometry arrives in mm, LPS, with its shear. Errors: io, corrupt_file
-/// (truncated, lying or contradictory), unsupported (a variant, or an unknown format: the message lists the known ones),
-/// too_large, invalid_input (options that fit no frame or series, a limit below 1). Every message names the file.
+/// folder with a file of these for each frame, of one grid. The file's name says which, else its content. Geometry arrives
+/// in mm, LPS, with its shear. Errors: io, corrupt_file (truncated, lying or contradictory), unsupported (a variant, or an
+/// unknown format: the message lists the known ones), too_large, invalid_input (options that fit no frame or series, a limit
+/// below 1). Every message names the file.
 Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// The geometry alone; reads no voxels.

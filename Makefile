@@ -93,8 +93,8 @@ docs: ## write the C++ reference to build/release/reference/html (installs doxyg
 	@$(configure)
 	@cmake --build --preset release --target kontur_reference
 
-format: ## format the C++ sources (needs clang-format) and the page's TypeScript
-	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
+format: ## format the C++ sources (needs clang-format-14) and the page's TypeScript
+	@git ls-files '*.h' '*.cpp' | xargs clang-format-14 -i
 	@cd apps/viewer/web && { test -x node_modules/.bin/prettier || npm ci --ignore-scripts --no-audit --no-fund --loglevel=error; } && npm run --silent format
 
 install: build ## install kontur under PREFIX (default /usr/local)

@@ -34,8 +34,9 @@ struct Cohort {
 
 /// Reads the table: columns `contours` (several files separated by ';') and `image` or `spacing-mm`, `output`, optionally
 /// `case` (a name), `roi` (several, too), and any other option of `segment` without its dashes; empty cells are options not
-/// given. Cases that name no file of rules get `rules`, unless it is empty. Throws Error(invalid_input), naming the line, for a column that is none of these, whatever `segment` would not
-/// accept, a name or an output of two rows, and an output that would replace the table or an input of any row.
+/// given. Cases that name no file of rules get `rules`, unless it is empty. Throws Error(invalid_input), naming the line,
+/// for a column that is none of these, whatever `segment` would not accept, a name or an output of two rows, and an output
+/// that would replace the table or an input of any row.
 Cohort read_cases(const std::filesystem::path& table, const std::filesystem::path& rules = {});
 
 /// Throws what writing the case's outputs would throw after the work, naming the line: for a folder that does not exist,

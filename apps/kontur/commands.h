@@ -122,7 +122,7 @@ struct CorrectCommand {
     SeriesWords series;
     CorrectOptions options;
     bool shared_borders = false;  ///< labels beside the corrected one follow it where it retreats
-    int threads = 0;  ///< 0: the machine's
+    int threads = 0;              ///< 0: the machine's
 };
 void run(const CorrectCommand& command, Console& console);
 

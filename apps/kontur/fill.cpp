@@ -12,11 +12,11 @@
 #include "facts.h"
 #include "fill_structures.h"
 #include "input_digests.h"
-#include "labels_on_grid.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
 #include "kontur/io/bytes/atomic_file.h"
+#include "labels_on_grid.h"
 #include "outputs.h"
 
 namespace kontur::app {
@@ -148,8 +148,8 @@ FilledFile fill_files(const FillCommand& command, Console& console, const Work& 
     const bool overlaps = may_overlap(input);
     if (overlaps) check_room_for_overlap(command);
     if (overlaps && command.on_image)
-        throw Error(ErrorKind::invalid_input, fmt::format("segments of {} overlap, and --on-image fills one label map",
-                                                          input.path.string()));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("segments of {} overlap, and --on-image fills one label map", input.path.string()));
     std::vector<std::string> warnings;
     FilledFile file;
     Image filled;

@@ -9,8 +9,8 @@
 #include "commands.h"
 #include "dicom_output.h"
 #include "facts.h"
-#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/derive/derive.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/labels/shared_surface.h"
 #include "kontur/segment_together.h"
 #include "roi_drawings.h"
@@ -31,10 +31,10 @@ struct FittedRoi {
 struct RoiResults {
     std::vector<FittedRoi> all{};
     std::vector<LeftOutRoi> left_out;
-    RoiLabelMap labels;                      ///< unless the output has room for overlap
-    Structures structures{};                 ///< where it has: a SEG or a .seg.nrrd keeps all voxels
-    std::optional<SharedSurface> surface{};  ///< where a mesh is asked for
-    std::optional<Together> together{};      ///< without the structures: what they are to each other
+    RoiLabelMap labels;                       ///< unless the output has room for overlap
+    Structures structures{};                  ///< where it has: a SEG or a .seg.nrrd keeps all voxels
+    std::optional<SharedSurface> surface{};   ///< where a mesh is asked for
+    std::optional<Together> together{};       ///< without the structures: what they are to each other
     std::vector<NamedStructure> for_rules{};  ///< where there are rules
     std::vector<std::string> notes;
 

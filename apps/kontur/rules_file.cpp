@@ -39,13 +39,15 @@ std::vector<std::string> read_rules_file(const std::filesystem::path& path) {
     std::size_t bytes = 0;
     for (std::string line; std::getline(file, line);) {
         if ((bytes += line.size() + 1) > kMostBytes)
-            throw Error(ErrorKind::invalid_input, fmt::format("{} is larger than {} bytes, and so no file of rules", path.string(), kMostBytes));
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("{} is larger than {} bytes, and so no file of rules", path.string(), kMostBytes));
         if (rules.empty() && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
         if (std::string rule = trimmed(without_comment(line)); !rule.empty()) rules.push_back(std::move(rule));
     }
     for (const std::string& rule : rules) check_utf8(rule, "a rule of " + path.string());
     if (rules.empty())
-        throw Error(ErrorKind::invalid_input, fmt::format("{} holds 0 rules; at least 1 is needed, such as PTV = CTV + 5 mm", path.string()));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} holds 0 rules; at least 1 is needed, such as PTV = CTV + 5 mm", path.string()));
     return rules;
 }
 

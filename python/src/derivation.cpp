@@ -27,7 +27,8 @@ std::vector<NamedStructure> structures_from(const py::dict& given) {
         } else if (py::isinstance<Mask>(value)) {
             structures.push_back({name.cast<std::string>(), value.cast<const Mask&>(), {}});
         } else {
-            throw py::type_error("structures: a Mask or a Segmentation is needed, not " + py::repr(value).cast<std::string>());
+            throw py::type_error("structures: a Mask or a Segmentation is needed, not " +
+                                 py::repr(value).cast<std::string>());
         }
     }
     return structures;
@@ -44,17 +45,23 @@ Mask by_rule(const std::string& expression, const Mask& a, const Mask* b = nullp
 
 Mask by_length(const char* sign, const Mask& mask, double mm) {
     if (!(mm >= 0))
-        throw Error(ErrorKind::invalid_input, fmt::format("the margin is {} mm, but must be at least 0; - moves inwards", mm));
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the margin is {} mm, but must be at least 0; - moves inwards", mm));
     return by_rule(fmt::format("a {} {:.9f} mm", sign, mm), mask);
 }
 
 void bind_operators(py::module_& m) {
     auto mask = py::reinterpret_borrow<py::class_<Mask>>(m.attr("Mask"));
-    mask.def("__add__", [](const Mask& a, double mm) { return by_length("+", a, mm); }, py::is_operator());
-    mask.def("__sub__", [](const Mask& a, double mm) { return by_length("-", a, mm); }, py::is_operator());
-    mask.def("__sub__", [](const Mask& a, const Mask& b) { return by_rule("a - b", a, &b); }, py::is_operator());
-    mask.def("__or__", [](const Mask& a, const Mask& b) { return by_rule("a | b", a, &b); }, py::is_operator());
-    mask.def("__and__", [](const Mask& a, const Mask& b) { return by_rule("a & b", a, &b); }, py::is_operator());
+    mask.def(
+        "__add__", [](const Mask& a, double mm) { return by_length("+", a, mm); }, py::is_operator());
+    mask.def(
+        "__sub__", [](const Mask& a, double mm) { return by_length("-", a, mm); }, py::is_operator());
+    mask.def(
+        "__sub__", [](const Mask& a, const Mask& b) { return by_rule("a - b", a, &b); }, py::is_operator());
+    mask.def(
+        "__or__", [](const Mask& a, const Mask& b) { return by_rule("a | b", a, &b); }, py::is_operator());
+    mask.def(
+        "__and__", [](const Mask& a, const Mask& b) { return by_rule("a & b", a, &b); }, py::is_operator());
 }
 
 void bind_types(py::module_& m) {
@@ -136,9 +143,8 @@ True
            const py::object& stop) {
             const std::vector<std::string> texts = rules_from(rules);
             const std::vector<NamedStructure> named = structures_from(structures);
-            std::vector<DerivedStructure> made = run({progress, stop, threads}, [&](const Work& work) {
-                return derive(texts, named, {.image = image}, work);
-            });
+            std::vector<DerivedStructure> made = run(
+                {progress, stop, threads}, [&](const Work& work) { return derive(texts, named, {.image = image}, work); });
             py::dict by_name;
             for (DerivedStructure& one : made) {
                 const py::str name(one.name);  // before the structure is moved from

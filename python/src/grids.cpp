@@ -6,7 +6,8 @@ namespace kontur::python {
 namespace {
 
 bool is_ras(const std::string& frame) {
-    if (frame != "LPS" && frame != "RAS") throw Error(ErrorKind::invalid_input, "frame: 'LPS' or 'RAS' is needed, not '" + frame + "'");
+    if (frame != "LPS" && frame != "RAS")
+        throw Error(ErrorKind::invalid_input, "frame: 'LPS' or 'RAS' is needed, not '" + frame + "'");
     return frame == "RAS";
 }
 

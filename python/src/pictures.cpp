@@ -59,7 +59,8 @@ ndarray, shape (height_px, width_px, 3), uint8
             for (const auto& [caption, value] : facts) options.facts.push_back({caption, value});
             if (window) options.window = Window{window->first, window->second};
             const TriangleMesh none;
-            return pixels_of(unlocked([&] { return make_picture(mesh ? *mesh : none, contours, image, options, {.threads = threads}); }));
+            return pixels_of(
+                unlocked([&] { return make_picture(mesh ? *mesh : none, contours, image, options, {.threads = threads}); }));
         },
         py::arg("mesh"), py::arg("contours"), py::arg("image") = py::none(), py::kw_only(),
         py::arg("width_px") = defaults.width_px, py::arg("height_px") = defaults.height_px, py::arg("title") = "",

@@ -127,12 +127,14 @@ void describe_long_edges(const StageResults& results, double contradiction_mm, c
     constexpr double kShare = 0.02;  // of the drawing's diameter
     const auto& [drawing, stages, prepared, fitted, image, surface, mask, check] = results;
     const double diameter = drawing.diameter_mm();
-    const Residual between = residual_between_points(fitted.function, drawing.contours, kShare * diameter, work, stages.prepare.image);
+    const Residual between =
+        residual_between_points(fitted.function, drawing.contours, kShare * diameter, work, stages.prepare.image);
     if (between.max_mm <= kShare * diameter) return;
     // Contours that contradict each other yield, however many points they have.
     const bool yields = 2 * contradiction_mm > between.max_mm;
-    const std::string why = yields ? fmt::format(", where contours contradict each other by up to {:.2g} mm", contradiction_mm)
-                                   : "; with more points it follows the line";
+    const std::string why = yields
+                                ? fmt::format(", where contours contradict each other by up to {:.2g} mm", contradiction_mm)
+                                : "; with more points it follows the line";
     warnings.push_back(fmt::format("the surface leaves contour {} by {:.2g} mm between its points{}",
                                    between.worst_contour + 1, between.max_mm, why));
 }
@@ -162,7 +164,8 @@ void describe_strays(const Drawing& drawing, std::vector<std::string>& warnings)
 
 /// A single point that is farther from all lines than these are wide makes the object as long as its own distance.
 void describe_far_points(const Drawing& drawing, std::vector<std::string>& warnings) {
-    constexpr double kFar = 1;  // diameters of the lines: half names the poles of a long object by a section, twice misses some
+    constexpr double kFar =
+        1;  // diameters of the lines: half names the poles of a long object by a section, twice misses some
     ContourSet lines;
     lines.contours = drawing.contours.contours;
     const double diameter_mm = smallest_ball(lines).diameter();
@@ -172,9 +175,10 @@ void describe_far_points(const Drawing& drawing, std::vector<std::string>& warni
             for (const Vec3& p : contour.points)
                 nearest_mm = std::min(nearest_mm, distance(p, drawing.contours.surface[i].position));
         if (!(nearest_mm > kFar * diameter_mm) || lines.contours.empty()) continue;
-        warnings.push_back(fmt::format("surface point {} is {:.3g} mm from every line, and these are {:.3g} mm across; the object "
-                                       "is drawn out to it; see that it lies where it belongs",
-                                       i + 1, nearest_mm, diameter_mm));
+        warnings.push_back(
+            fmt::format("surface point {} is {:.3g} mm from every line, and these are {:.3g} mm across; the object "
+                        "is drawn out to it; see that it lies where it belongs",
+                        i + 1, nearest_mm, diameter_mm));
         return;
     }
 }

@@ -18,9 +18,8 @@ namespace {
 struct ThickRod {
     Grid grid = grid_around({{-22, -22, -44}, {22, 22, 44}}, {2, 2, 2}, 2);
     Mask right = test::mask_of(grid, [](const Vec3& p) { return std::hypot(p.x, p.y) < 12 && std::abs(p.z) < 40; });
-    Mask mask = test::mask_of(grid, [](const Vec3& p) {
-        return std::hypot(p.x, p.y) < (std::abs(p.z) < 30 ? 17 : 12) && std::abs(p.z) < 40;
-    });
+    Mask mask = test::mask_of(
+        grid, [](const Vec3& p) { return std::hypot(p.x, p.y) < (std::abs(p.z) < 30 ? 17 : 12) && std::abs(p.z) < 40; });
     ExistingSurface surface{mask};
 
     static Corrections outlines(const std::vector<double>& heights) {
@@ -42,7 +41,8 @@ struct ThickRod {
         std::mt19937 random(7);
         std::normal_distribution<float> noise;
         std::vector<float> samples;
-        for (const std::uint8_t inside : right.values) samples.push_back(static_cast<float>(contrast * inside) + noise(random));
+        for (const std::uint8_t inside : right.values)
+            samples.push_back(static_cast<float>(contrast * inside) + noise(random));
         return {grid, std::move(samples)};
     }
 

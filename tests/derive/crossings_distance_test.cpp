@@ -53,7 +53,8 @@ void expect_exact(const DirectedWeights& weights, double reach) {
         const Levels levels = random_levels({9, 8, 7}, random);
         const std::vector<Vec3> crossings = surface_points(levels, grid);
         ASSERT_FALSE(crossings.empty());
-        const std::vector<float> found = crossings_distance(levels, {.spacing_mm = spacing, .reach = reach, .weights = weights}, {});
+        const std::vector<float> found =
+            crossings_distance(levels, {.spacing_mm = spacing, .reach = reach, .weights = weights}, {});
         for (std::int64_t k = levels.box.low.k; k <= levels.box.high.k; ++k)
             for (std::int64_t j = levels.box.low.j; j <= levels.box.high.j; ++j)
                 for (std::int64_t i = levels.box.low.i; i <= levels.box.high.i; ++i) {

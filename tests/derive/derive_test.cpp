@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/rasterize.h"
 #include "kontur/segment.h"
 #include "solid_levels.h"
+#include "support/random.h"
 
 namespace kontur {
 namespace {
@@ -31,11 +31,14 @@ Mask random_blobs(const Grid& grid, std::mt19937& random) {
     std::uniform_real_distribution<double> place(-14, 14), radius(0.4, 7);
     std::vector<std::pair<Vec3, double>> balls;
     for (int n = 0; n < 12; ++n) balls.push_back({{place(random), place(random), place(random)}, radius(random)});
-    return test::mask_of({"", [&](const Vec3& p) {
+    return test::mask_of({"",
+                          [&](const Vec3& p) {
                               double most = -1e9;
                               for (const auto& [c, r] : balls) most = std::max(most, r - distance(p, c));
                               return most;
-                          }, {}}, grid);
+                          },
+                          {}},
+                         grid);
 }
 
 TEST(Derive, ANameAloneIsTheStructureVoxelForVoxel) {
@@ -89,7 +92,8 @@ TEST(Derive, ACropLeavesAGap) {
     const test::Solid inner = test::ball(10);
     test::Solid body{"body", [](const Vec3& p) { return 14 - distance(p, {6, 0, 0}); }, {}};
     std::vector<NamedStructure> structures{named(inner, grid), named(body, grid)};
-    const Mask cropped = derived("crop(ball, body, 3 mm)", structures), kept = derived("avoid(ball, body, 3 mm)", structures);
+    const Mask cropped = derived("crop(ball, body, 3 mm)", structures),
+               kept = derived("avoid(ball, body, 3 mm)", structures);
     for (std::int64_t k = 0; k < grid.size.k; ++k)
         for (std::int64_t j = 0; j < grid.size.j; ++j)
             for (std::int64_t i = 0; i < grid.size.i; ++i) {
@@ -112,8 +116,13 @@ TEST(Derive, FillsHolesKeepsTheLargestAndDropsSmallParts) {
         return std::max({std::min(10 - norm(p), norm(p) - 4), 4 - distance(p, {18, 0, 0}), 2 - distance(p, {-18, 0, 0})});
     };
     const std::vector<NamedStructure> structures{named({"A", level, {}}, grid)};
-    const auto ball = [&](const Vec3& c, double r) { return count(test::mask_of({"", [=](const Vec3& p) { return r - distance(p, c); }, {}}, grid)); };
-    const std::int64_t hole = count(test::mask_of({"", [](const Vec3& p) { return norm(p) < 4 ? 1.0 : norm(p) == 4 ? 1.0 : -1.0; }, {}}, grid));
+    const auto ball = [&](const Vec3& c, double r) {
+        return count(test::mask_of({"", [=](const Vec3& p) { return r - distance(p, c); }, {}}, grid));
+    };
+    const std::int64_t hole =
+        count(test::mask_of({"", [](const Vec3& p) { return norm(p) < 4    ? 1.0
+                                                            : norm(p) == 4 ? 1.0
+                                                                           : -1.0; }, {}}, grid));
     const std::int64_t all = count(structures[0].mask), large = ball({18, 0, 0}, 4), small = ball({-18, 0, 0}, 2);
     EXPECT_EQ(count(derived("fill(A)", structures)), all + hole);
     EXPECT_EQ(count(derived("largest(A)", structures)), all - large - small);
@@ -169,7 +178,7 @@ TEST(Derive, FindsTheBodyWithoutItsCouch) {
         for (std::int64_t j = 0; j < grid.size.j; ++j)
             for (std::int64_t i = 0; i < grid.size.i; ++i) {
                 const Vec3 p = grid.center_mm(i, j, k);
-                const bool lung = std::hypot(p.x - 15, p.y) < 12, couch = p.y > 35.5 && p.y < 40;
+                const bool lung = std::hypot(p.x - 15, p.y)<12, couch = p.y> 35.5 && p.y < 40;
                 values.push_back(lung ? -800 : is_body(p) ? 30 : couch ? 100 : -1000);
             }
     const Image image{grid, values};
@@ -206,7 +215,8 @@ TEST(Derive, OfContoursMeasuresFromTheirFunction) {
     grid.index_to_mm.translation = {-24.5, -24.4, -30};
     const Segmentation drawn = segment(drawn_ball(14), grid, SegmentOptions{}, {.threads = 2});
     const DerivedStructure made =
-        derive(std::vector<std::string>{"PTV = ball + 5 mm"}, std::vector<NamedStructure>{{"ball", drawn.mask, drawn.function}}, {}, {.threads = 2})
+        derive(std::vector<std::string>{"PTV = ball + 5 mm"},
+               std::vector<NamedStructure>{{"ball", drawn.mask, drawn.function}}, {}, {.threads = 2})
             .front();
     EXPECT_EQ(made.name, "PTV");
     EXPECT_EQ(made.sources, std::vector<std::string>{"ball"});
@@ -237,7 +247,8 @@ TEST(Derive, OutlinesEncloseTheMasksCentres) {
 TEST(Derive, IsTheSameForAnyNumberOfThreadsAndOrderOfRules) {
     std::mt19937 random = test::random_of_this_test();
     const Grid grid = test::grid_of({1, 1, 3}, 0.17, 24);
-    const std::vector<NamedStructure> structures{{"A", random_blobs(grid, random), {}}, {"B", random_blobs(grid, random), {}}};
+    const std::vector<NamedStructure> structures{{"A", random_blobs(grid, random), {}},
+                                                 {"B", random_blobs(grid, random), {}}};
     const std::vector<std::string> rules{"Q = P - (B + {1 mm, left 3 mm})", "P = A + 4 mm"}, turned{rules[1], rules[0]};
     const auto one = derive(rules, structures, {}, {.threads = 1}), many = derive(turned, structures, {}, {.threads = 5});
     EXPECT_GT(count(one[0].mask), 0);

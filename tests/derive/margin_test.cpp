@@ -45,7 +45,8 @@ TEST(Margin, OfSmoothBodiesIsWrongByLessThanAThirdOfAVoxel) {
                     if (!is_smooth(solid)) continue;
                     const Grid image = test::grid_of(spacing, tilt, 22);
                     const WorkLattice lattice = work_lattice(image);
-                    EXPECT_LT(worst_side(moved(test::levels_of(solid, lattice), lattice, by), solid, lattice, image, by), 0.3)
+                    EXPECT_LT(worst_side(moved(test::levels_of(solid, lattice), lattice, by), solid, lattice, image, by),
+                              0.3)
                         << solid.name << ' ' << spacing.z << ' ' << tilt << ' ' << by;
                 }
 }
@@ -85,7 +86,8 @@ TEST(Margin, OfAMaskOfWholeVoxelsIsExactBesideItsFaces) {
         for (std::int64_t j = 12; j < 28; ++j)
             for (std::int64_t i = 12; i < 28; ++i) box.values[image.offset(i, j, k)] = 1;
     const WorkLattice lattice = work_lattice(image);
-    const Levels grown = moved(mask_levels(box, lattice, {}), lattice, 4.2), shrunk = moved(mask_levels(box, lattice, {}), lattice, -4.2);
+    const Levels grown = moved(mask_levels(box, lattice, {}), lattice, 4.2),
+                 shrunk = moved(mask_levels(box, lattice, {}), lattice, -4.2);
     for (std::int64_t n = 0; n < 40; ++n) {
         EXPECT_EQ(grown.at({n, 20, 15}) > 0, n >= 8 && n < 32) << n;  // 11.5 - 4.2 = 7.3
         EXPECT_EQ(shrunk.at({20, n, 15}) > 0, n >= 16 && n < 24) << n;
@@ -130,12 +132,14 @@ TEST(Margin, GrowsOnlyTowardsTheSidesThatHaveALength) {
         const WorkLattice lattice = work_lattice(image);
         const Levels levels = test::levels_of(solid, lattice);
         const SideLengths left{.left = 6};
-        const Levels grown = margin(levels, image, left, MarginSide::outwards, {}), shrunk = margin(levels, image, left, MarginSide::inwards, {});
+        const Levels grown = margin(levels, image, left, MarginSide::outwards, {}),
+                     shrunk = margin(levels, image, left, MarginSide::inwards, {});
         for (std::int64_t k = 0; k < image.size.k; ++k)
             for (std::int64_t j = 0; j < image.size.j; ++j)
                 for (std::int64_t i = 0; i < image.size.i; ++i) {
                     const Vec3 p = image.center_mm(i, j, k);
-                    const double outer = test::box_level(p - Vec3{3, 0, 0}, {11, 8, 8}), inner = test::box_level(p + Vec3{3, 0, 0}, {5, 8, 8});
+                    const double outer = test::box_level(p - Vec3{3, 0, 0}, {11, 8, 8}),
+                                 inner = test::box_level(p + Vec3{3, 0, 0}, {5, 8, 8});
                     if (std::abs(outer) > 0.9) {
                         EXPECT_EQ(grown.at({i, j, k}) > 0, outer > 0) << p.x << ' ' << p.y << ' ' << p.z;
                     }

@@ -5,10 +5,10 @@
 
 #include <map>
 
-#include "support/random.h"
 #include "kontur/derive/derive.h"
 #include "kontur/derive/rule.h"
 #include "solid_levels.h"
+#include "support/random.h"
 
 // Rules against a plain program on voxels: a margin tries each pair of voxels. It knows surfaces to a voxel only, so that a
 // margin's border is in doubt by that much; where a rule decides nothing beside a border in doubt, both agree.
@@ -64,9 +64,12 @@ private:
             for (std::int64_t j = 0; j < grid_.size.j; ++j)
                 for (std::int64_t i = 0; i < grid_.size.i; ++i) {
                     if (!values[grid_.offset(i, j, k)]) continue;
-                    for (std::int64_t c = std::max<std::int64_t>(0, k - reach(2)); c <= std::min(grid_.size.k - 1, k + reach(2)); ++c)
-                        for (std::int64_t b = std::max<std::int64_t>(0, j - reach(1)); b <= std::min(grid_.size.j - 1, j + reach(1)); ++b)
-                            for (std::int64_t a = std::max<std::int64_t>(0, i - reach(0)); a <= std::min(grid_.size.i - 1, i + reach(0)); ++a)
+                    for (std::int64_t c = std::max<std::int64_t>(0, k - reach(2));
+                         c <= std::min(grid_.size.k - 1, k + reach(2)); ++c)
+                        for (std::int64_t b = std::max<std::int64_t>(0, j - reach(1));
+                             b <= std::min(grid_.size.j - 1, j + reach(1)); ++b)
+                            for (std::int64_t a = std::max<std::int64_t>(0, i - reach(0));
+                                 a <= std::min(grid_.size.i - 1, i + reach(0)); ++a)
                                 if (distance(grid_.center_mm(i, j, k), grid_.center_mm(a, b, c)) <= by)
                                     made[grid_.offset(a, b, c)] = 1;
                 }

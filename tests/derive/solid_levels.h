@@ -11,7 +11,8 @@
 
 #include "kontur/derive/levels.h"
 
-// Bodies whose signed distance is known exactly, mm, positive inside, and grids of several spacings and tilts to put them on.
+// Bodies whose signed distance is known exactly, mm, positive inside, and grids of several spacings and tilts to put them
+// on.
 
 namespace kontur::test {
 
@@ -59,7 +60,9 @@ inline double ellipsoid_level(const Vec3& point, const Vec3& axes) {
 
 inline Solid ellipsoid(const Vec3& axes) {
     return {"ellipsoid", [=](const Vec3& p) { return ellipsoid_level(p, axes); },
-            [=](const Vec3& u) { return norm({axes.x * u.x, axes.y * u.y, axes.z * u.z}); }};
+            [=](const Vec3& u) {
+                return norm({axes.x * u.x, axes.y * u.y, axes.z * u.z});
+            }};
 }
 
 /// An L in the plane x, y, drawn out along z to both sides.
@@ -98,7 +101,8 @@ inline Grid grid_of(const Vec3& spacing, double tilt, double half_mm) {
     for (int axis = 0; axis < 3; ++axis) {
         grid.size[axis] = 2 * static_cast<std::int64_t>(std::ceil(half_mm / spacing[axis])) + 1;
         grid.index_to_mm.set_column(axis, spacing[axis] * axes[static_cast<std::size_t>(axis)]);
-        first += (-0.5 * static_cast<double>(grid.size[axis] - 1) + 0.3) * spacing[axis] * axes[static_cast<std::size_t>(axis)];
+        first +=
+            (-0.5 * static_cast<double>(grid.size[axis] - 1) + 0.3) * spacing[axis] * axes[static_cast<std::size_t>(axis)];
     }
     grid.index_to_mm.translation = first;
     return grid;

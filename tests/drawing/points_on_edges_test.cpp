@@ -20,7 +20,8 @@ TEST(PointsOnEdges, LeavesTheCornersOfASquare) {
     const std::vector<Vec3> corners{{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
     std::vector<Vec3> points;
     for (std::size_t c = 0; c < 4; ++c)
-        for (const double part : {0.0, 0.25, 0.3, 0.9}) points.push_back(corners[c] + part * (corners[(c + 1) % 4] - corners[c]));
+        for (const double part : {0.0, 0.25, 0.3, 0.9})
+            points.push_back(corners[c] + part * (corners[(c + 1) % 4] - corners[c]));
     EXPECT_EQ(without_points_on_edges(path(points, true), 1e-6).points, corners);
     points.push_back(corners[0]);
     std::vector<Vec3> way = corners;

@@ -112,7 +112,8 @@ TEST(SurfaceBand, AgreesWithTheMeshOfTheSameSurface) {
         const Surface surface(c);
         const SurfaceBand band(surface.function, surface.starts, {surface.spacing_mm});
         const Grid lattice = *preview_lattice(surface.starts, surface.spacing_mm);
-        const TriangleMesh mesh = polygonize(track_surface_adaptively(surface.function, lattice, surface.starts), surface.function);
+        const TriangleMesh mesh =
+            polygonize(track_surface_adaptively(surface.function, lattice, surface.starts), surface.function);
         std::vector<double> distances;
         for (const Plane& plane : drawn_and_random_planes(c.contours, random)) {
             const Lines fast = without_grazed(band.cut(plane), surface.spacing_mm);

@@ -58,8 +58,7 @@ TEST(ClickGuards, LieOnTheSurfaceWithoutClicksAwayFromLines) {
     const Vec3 clicked = normalized({1, 1, 1});
     set.exterior = {(reach(without, clicked) - 5) * clicked};
     const Drawing drawing = read_drawing(set, FillRule::even_odd);
-    const std::vector<Bound> guards =
-        click_guards(prepare(drawing), without, {});
+    const std::vector<Bound> guards = click_guards(prepare(drawing), without, {});
     EXPECT_GT(guards.size(), 20u);
     for (const Bound& guard : guards) {
         EXPECT_NEAR(without.value(guard.position), 0, 0.5);

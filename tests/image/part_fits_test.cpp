@@ -30,8 +30,8 @@ public:
         part_fits_.begin_question();
         ImageFit with_image = follow_image(
             {drawing, prepared, fitted}, image(),
-            [&](const ContourSet& part) { return part_fits_.of(part, drawing.diameter_mm(), fit_part); }, {.fit = stages.fit},
-            work);
+            [&](const ContourSet& part) { return part_fits_.of(part, drawing.diameter_mm(), fit_part); },
+            {.fit = stages.fit}, work);
         return {std::move(with_image), fits};
     }
 

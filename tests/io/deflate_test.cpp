@@ -18,8 +18,7 @@ Mask ball_mask() {
     Mask mask{{{60, 50, 40}, Affine3{}}, {}};
     for (int k = 0; k < 40; ++k)
         for (int j = 0; j < 50; ++j)
-            for (int i = 0; i < 60; ++i)
-                mask.values.push_back(norm(Vec3{i - 30.0, j - 25.0, k - 20.0}) < 15 ? 1 : 0);
+            for (int i = 0; i < 60; ++i) mask.values.push_back(norm(Vec3{i - 30.0, j - 25.0, k - 20.0}) < 15 ? 1 : 0);
     return mask;
 }
 

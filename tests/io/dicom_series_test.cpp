@@ -81,7 +81,8 @@ TEST_F(DicomSeriesTest, ReadsPositionsThatAreRoundedAsTheyAreWrittenWithTheLarge
 }
 
 TEST_F(DicomSeriesTest, NamesTheWayOutOfIrregularSlices) {
-    EXPECT_REFUSED(refusal(make("missing")), unsupported, "resample_slices interpolates slices, and kontur segment --spacing-mm needs no image");
+    EXPECT_REFUSED(refusal(make("missing")), unsupported,
+                   "resample_slices interpolates slices, and kontur segment --spacing-mm needs no image");
 }
 
 TEST_F(DicomSeriesTest, ResampledSlicesAreThoseThatAreThereAndLieBetweenThemElsewhere) {

@@ -264,8 +264,8 @@ TEST(SectionCheck, FaultsAreOnePlaceForEachPlaneAndPair) {
     EXPECT_LT(distance(island[0].position, {26, 0, at}), 1.2);
     ContourSet rings;
     for (int n = 0; n < 6; ++n) rings.contours.push_back(test::circle(axial_at(33.0 * n), 5, 60));
-    const std::vector<SectionFault> pearls = faults(
-        checked(rings, [](const Vec3& p) { return 5 - std::hypot(p.x, p.y, p.z - 33 * std::round(p.z / 33)); }));
+    const std::vector<SectionFault> pearls =
+        faults(checked(rings, [](const Vec3& p) { return 5 - std::hypot(p.x, p.y, p.z - 33 * std::round(p.z / 33)); }));
     ASSERT_EQ(pearls.size(), 5u);
     for (const SectionFault& fault : pearls) {
         EXPECT_EQ(name(fault.kind), "between");

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "support/drawn_bodies.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/sureness/surface_evidence.h"
 #include "support/coarse_grid.h"
+#include "support/drawn_bodies.h"
 
 namespace kontur {
 namespace {

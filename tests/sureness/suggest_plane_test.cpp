@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <functional>
 
-#include "support/drawn_bodies.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/sureness/surface_evidence.h"
 #include "support/coarse_grid.h"
+#include "support/drawn_bodies.h"
 #include "support/expect_error.h"
 #include "support/functions.h"
 

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "support/drawn_bodies.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/sureness/image_shares.h"
 #include "kontur/sureness/surface_evidence.h"
 #include "kontur/sureness/uncertainty_map.h"
 #include "support/coarse_grid.h"
+#include "support/drawn_bodies.h"
 
 namespace kontur {
 namespace {

@@ -141,7 +141,8 @@ std::vector<Vec3> thinned(const std::vector<Vec3>& line) {
     return result;
 }
 
-PlacedSketch draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges, const SketchOptions& options) {
+PlacedSketch draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
+                  const SketchOptions& options) {
     if (sketch.empty()) throw Error(ErrorKind::invalid_input, "a drawing has no control point; at least 1 is needed");
     PlacedSketch drawing = Sketcher(sketch, plane, edges, options).draw();
     if (drawing.points.size() > kMostPoints)

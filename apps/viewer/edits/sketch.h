@@ -34,7 +34,7 @@ struct PlacedSketch {
     std::vector<Vec3> points;
 };
 PlacedSketch draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
-             const SketchOptions& options = {});
+                  const SketchOptions& options = {});
 
 /// The contour as a sketch that draws the same line.
 std::vector<SketchPoint> sketch_of(const DrawnContour& contour);

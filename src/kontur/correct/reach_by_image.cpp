@@ -49,8 +49,8 @@ ImageReach trust(const MaskCorrection& correction, const CarriedBox& at, const W
         ++reach.planes;
     }
     if (reach.wrong_without > 0)
-        reach.weight = kMostImageWeight * kHelps.at(1 - static_cast<double>(reach.wrong_with) /
-                                                            static_cast<double>(reach.wrong_without));
+        reach.weight = kMostImageWeight *
+                       kHelps.at(1 - static_cast<double>(reach.wrong_with) / static_cast<double>(reach.wrong_without));
     return reach;
 }
 
@@ -81,9 +81,10 @@ std::string sentence(const ImageReach& reach) {
     if (reach.weight <= 0.5)
         return fmt::format("the image was not followed: in planes left out, {} wrong voxels become {} with it",
                            reach.wrong_without, reach.wrong_with);
-    return fmt::format("the image decided how far corrections are carried: in planes left out it mends {:.0f} % of the wrong "
-                       "voxels",
-                       mended);
+    return fmt::format(
+        "the image decided how far corrections are carried: in planes left out it mends {:.0f} % of the wrong "
+        "voxels",
+        mended);
 }
 
 }  // namespace kontur

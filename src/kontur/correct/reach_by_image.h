@@ -10,8 +10,8 @@
 namespace kontur {
 
 /// So much of the walk's probability counts at most: it has to be surer than 1 - 0.5 / 0.8 = 3/8 against what there is
-/// without it. With 1 a bite of a kidney that three planes mend to .999 loses .004 Dice; with .65 a quarter of what the image
-/// mends elsewhere is lost.
+/// without it. With 1 a bite of a kidney that three planes mend to .999 loses .004 Dice; with .65 a quarter of what the
+/// image mends elsewhere is lost.
 inline constexpr double kMostImageWeight = 0.8;
 
 struct ImageReachedVoxels {

@@ -35,8 +35,8 @@ struct Lines {
     std::int64_t first(std::int64_t line) const { return line / inner * outer + line % inner; }
 };
 
-/// The lower envelope of cost(x - q) + value(q) along one line, x and q in steps. Steps of the line are whole numbers, so that
-/// for equal weights on both sides the divisions are known before.
+/// The lower envelope of cost(x - q) + value(q) along one line, x and q in steps. Steps of the line are whole numbers, so
+/// that for equal weights on both sides the divisions are known before.
 template <bool kIsEven>
 class Envelope {
 public:
@@ -158,7 +158,8 @@ private:
         for (std::int64_t n = 0; n + 1 < lines.length; ++n) {
             const float here = levels[n * lines.step], next = levels[(n + 1) * lines.step];
             if ((here > 0) == (next > 0)) continue;
-            const double place = static_cast<double>(n) + static_cast<double>(here) / (static_cast<double>(here) - static_cast<double>(next));
+            const double place =
+                static_cast<double>(n) + static_cast<double>(here) / (static_cast<double>(here) - static_cast<double>(next));
             const auto offer = [&](std::int64_t m) {
                 const double cost = w.cost((static_cast<double>(m) - place) * spacing);
                 float& value = out[m * lines.step];
@@ -166,8 +167,10 @@ private:
                 value = static_cast<float>(cost);
                 return true;
             };
-            for (std::int64_t m = n; m >= 0 && offer(m); --m) {}
-            for (std::int64_t m = n + 1; m < lines.length && offer(m); ++m) {}
+            for (std::int64_t m = n; m >= 0 && offer(m); --m) {
+            }
+            for (std::int64_t m = n + 1; m < lines.length && offer(m); ++m) {
+            }
         }
     }
 

@@ -45,10 +45,10 @@ struct DeriveOptions {
 };
 
 /// Makes structures of structures by rules such as "PTV = CTV + 5 mm - (Cord + 3 mm)" (docs/derive.md). A rule may name what
-/// another one makes; results come in the order of the rules. A margin is a distance in mm in space from the surface. With an
-/// image there may be no structures. Throws Error(invalid_input), with a
-/// mark at the place in the line, for what is no rule, a name that stands for nothing and rules in a circle; for structures
-/// of several grids, two of one name and a rule that makes a structure that is there. The same bytes for any number of threads.
+/// another one makes; results come in the order of the rules. A margin is a distance in mm in space from the surface. With
+/// an image there may be no structures. Throws Error(invalid_input), with a mark at the place in the line, for what is no
+/// rule, a name that stands for nothing and rules in a circle; for structures of several grids, two of one name and a rule
+/// that makes a structure that is there. The same bytes for any number of threads.
 std::vector<DerivedStructure> derive(std::span<const std::string> rules, std::span<const NamedStructure> structures,
                                      const DeriveOptions& options = {}, const Work& work = {});
 
@@ -64,7 +64,7 @@ struct StructureRelation {
     std::string a, b;
     double volume_a_ml = 0, volume_b_ml = 0;
     double overlap_ml = 0;
-    std::optional<double> least_distance_mm{};  ///< of the surfaces; 0 where they overlap; nothing when a mask is empty
+    std::optional<double> least_distance_mm{};    ///< of the surfaces; 0 where they overlap; nothing when a mask is empty
     double a_beyond_b_mm = 0, b_beyond_a_mm = 0;  ///< how far one sticks out of the other at most
     Vec3 a_beyond_b{}, b_beyond_a{};              ///< mm, where it does
 };

@@ -20,9 +20,9 @@ struct SideLengths {
 
 enum class MarginSide { outwards, inwards };
 
-/// All points up to so far from the structure; inwards, those of the structure at least so far from its surface. With several
-/// lengths the ball around each point becomes a body of eight octants of ellipsoids with these half axes. What lies inside the
-/// structure stays inside outwards, also at a length of 0, and inwards nothing is added.
+/// All points up to so far from the structure; inwards, those of the structure at least so far from its surface. With
+/// several lengths the ball around each point becomes a body of eight octants of ellipsoids with these half axes. What lies
+/// inside the structure stays inside outwards, also at a length of 0, and inwards nothing is added.
 Levels margin(const Levels& levels, const Grid& grid, const SideLengths& lengths, MarginSide side, const Work& work);
 
 /// What the structure passes when it moves by this vector (mm); inwards, the points that stay in it when they move so.

@@ -12,8 +12,8 @@ namespace kontur {
 /// Whether a grid's axes stand on each other at right angles, to 0.001.
 bool is_orthogonal(const Grid& grid);
 
-/// Along which of the grid's axes each patient axis x, y, z runs, and whether against it; nullopt for axes that are oblique by
-/// more than 0.001.
+/// Along which of the grid's axes each patient axis x, y, z runs, and whether against it; nullopt for axes that are oblique
+/// by more than 0.001.
 struct PatientAxis {
     int axis = 0;
     bool is_against = false;

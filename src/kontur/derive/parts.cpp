@@ -34,7 +34,8 @@ Levels filled(Levels levels) {
     const Components outside = find_components(side_of(levels, false));
     if (outside.sizes.size() < 2) return levels;
     // The box's outermost points are outside and hang together.
-    const auto first = std::find_if(outside.runs.begin(), outside.runs.end(), [](const auto& run) { return run.begin == 0; });
+    const auto first =
+        std::find_if(outside.runs.begin(), outside.runs.end(), [](const auto& run) { return run.begin == 0; });
     const std::size_t around = first->component;
     return with_sides(std::move(levels), outside, [around](std::size_t component) { return component != around; });
 }

@@ -16,15 +16,15 @@ enum class Operation { name, body, join, meet, without, margin, margin_along, fi
 /// What a rule says on the right of its '=', or a part of that.
 struct Expression {
     Operation operation = Operation::name;
-    std::size_t place = 0;                  ///< of its first byte in the rule
+    std::size_t place = 0;  ///< of its first byte in the rule
     std::vector<Expression> operands{};
-    std::string name{};                     ///< of a structure
-    SideLengths lengths{};                  ///< of a margin
+    std::string name{};                      ///< of a structure
+    SideLengths lengths{};                   ///< of a margin
     MarginSide side = MarginSide::outwards;  ///< of a margin
-    Vec3 way{};                             ///< of a margin along a direction, mm
-    Plane plane{};                          ///< of a clip, which keeps what lies on the side of its normal
-    double least_ml = 0;                    ///< of parts that stay
-    std::optional<double> threshold{};      ///< of the body's outline, in the image's values
+    Vec3 way{};                              ///< of a margin along a direction, mm
+    Plane plane{};                           ///< of a clip, which keeps what lies on the side of its normal
+    double least_ml = 0;                     ///< of parts that stay
+    std::optional<double> threshold{};       ///< of the body's outline, in the image's values
 };
 
 /// "NAME = EXPRESSION" (docs/derive.md has the grammar).

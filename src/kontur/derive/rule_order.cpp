@@ -62,7 +62,8 @@ std::vector<Rule> read_rules(std::span<const std::string> texts) {
         Rule rule = read_rule(text);
         for (const Rule& other : rules)
             if (other.name == rule.name)
-                refuse_rule(rule.text, rule.name_place, fmt::format("a second rule makes '{}'; give one another name", rule.name));
+                refuse_rule(rule.text, rule.name_place,
+                            fmt::format("a second rule makes '{}'; give one another name", rule.name));
         rules.push_back(std::move(rule));
     }
     return rules;

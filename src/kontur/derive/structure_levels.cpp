@@ -19,24 +19,27 @@ void check_one_grid(const Grid& grid, std::string_view whose, const Grid& first)
     check_grid(grid);
     const double apart = corner_distance_mm(grid, first);
     if (!(apart <= kSameMm))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the grid of {} has {} x {} x {} voxels, that of the first structure {} x {} x {}, and their "
-                                "corners lie {:g} mm apart; {} mm are the most",
-                                whose, grid.size.i, grid.size.j, grid.size.k, first.size.i, first.size.j, first.size.k, apart,
-                                kSameMm));
+        throw Error(
+            ErrorKind::invalid_input,
+            fmt::format("the grid of {} has {} x {} x {} voxels, that of the first structure {} x {} x {}, and their "
+                        "corners lie {:g} mm apart; {} mm are the most",
+                        whose, grid.size.i, grid.size.j, grid.size.k, first.size.i, first.size.j, first.size.k, apart,
+                        kSameMm));
 }
 
 void check_structures(std::span<const NamedStructure> structures) {
     for (std::size_t n = 0; n < structures.size(); ++n) {
         const NamedStructure& one = structures[n];
         if (one.name.empty())
-            throw Error(ErrorKind::invalid_input, fmt::format("structure {} has no name, by which rules could name it", n + 1));
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("structure {} has no name, by which rules could name it", n + 1));
         check_mask(one.mask, fmt::format("the mask of '{}'", one.name));
         check_one_grid(one.mask.grid, fmt::format("'{}'", one.name), structures.front().mask.grid);
         for (std::size_t other = 0; other < n; ++other)
             if (structures[other].name == one.name)
                 throw Error(ErrorKind::invalid_input,
-                            fmt::format("structures {} and {} are both '{}'; rules need different names", other + 1, n + 1, one.name));
+                            fmt::format("structures {} and {} are both '{}'; rules need different names", other + 1, n + 1,
+                                        one.name));
     }
 }
 

@@ -13,8 +13,8 @@ namespace kontur {
 /// A given structure on the lattice, by its function where it has one.
 Levels structure_levels(const NamedStructure& structure, const WorkLattice& lattice, const Work& work);
 
-/// Throw Error(invalid_input) for grids that differ by more than 0.001 mm at a corner, and for structures of which that holds,
-/// which have no name, or two of which have the same one.
+/// Throw Error(invalid_input) for grids that differ by more than 0.001 mm at a corner, and for structures of which that
+/// holds, which have no name, or two of which have the same one.
 void check_one_grid(const Grid& grid, std::string_view whose, const Grid& first);
 void check_structures(std::span<const NamedStructure> structures);
 

@@ -25,8 +25,8 @@ public:
     Vec3 nearest(const Vec3& place) const;
     /// From a place in the box along a unit vector to its faces; 0 from beyond it.
     double border_ahead_mm(const Vec3& place, const Vec3& direction) const;
-    /// Whether a line runs along a face, less than a slice from it: there the image ends and not the object. `outward` is the
-    /// unit normal of the line.
+    /// Whether a line runs along a face, less than a slice from it: there the image ends and not the object. `outward` is
+    /// the unit normal of the line.
     bool is_border(const Vec3& place, const Vec3& outward) const;
 
 private:

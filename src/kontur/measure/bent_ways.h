@@ -16,7 +16,7 @@ inline constexpr std::array kQuarters{0.25, 0.5, 0.75};  // of a way, where it i
 
 /// Ways from places of one outline to the same places of another, at their quarters.
 struct BentWays {
-    std::size_t own = 0, to = 0;        ///< looks
+    std::size_t own = 0, to = 0;         ///< looks
     std::size_t contour = 0, other = 0;  ///< indices
     double length_mm = 0;
     Vec3 direction;  ///< from one middle to the other

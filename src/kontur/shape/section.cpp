@@ -164,8 +164,7 @@ Section::Nearest SectionSearch::nearest(const Point2& p) const {
         const Stretch& stretch = stretches_[s];
         const Polygon2& outline = section_.outlines[stretch.outline];
         NearestPoint here(p);
-        for (std::size_t i = stretch.begin; i < stretch.end; ++i)
-            here.look_at(outline, i, stretch.outline);
+        for (std::size_t i = stretch.begin; i < stretch.end; ++i) here.look_at(outline, i, stretch.outline);
         // Of places equally near the section finds the first.
         if (std::pair(here.distance2(), s) >= std::pair(nearest.distance2(), nearest_stretch)) return;
         nearest = here;

@@ -18,8 +18,8 @@ void last_rows_of_inverse(const double* l, int n, int m, double* rows);
 /// Right-hand sides that `small_cholesky_forward` takes at once.
 inline constexpr int kForwardSides = 16;
 
-/// X <- L^-1 X, X an n x kForwardSides matrix, row-major, whose rows before `first`, a multiple of 4, are zero. n^2 flops for
-/// each side where `first` is 0.
+/// X <- L^-1 X, X an n x kForwardSides matrix, row-major, whose rows before `first`, a multiple of 4, are zero. n^2 flops
+/// for each side where `first` is 0.
 void small_cholesky_forward(const double* l, int n, int first, double* x);
 
 /// x <- L^-T L^-1 x.

@@ -69,9 +69,8 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(link_destination(target
     if (::access(kDescriptors, X_OK) == 0)
         descriptor_ = ::open(folder_of(target_).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
-        take_name([&](const char* name) {
-            return descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        });
+        take_name(
+            [&](const char* name) { return descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
     struct stat existing {};
     if (::stat(target_.c_str(), &existing) == 0) ::fchmod(descriptor_, existing.st_mode & 07777);
 }

@@ -28,8 +28,8 @@ public:
     void write(const void* bytes, std::size_t count);
     void write(std::string_view text) { write(text.data(), text.size()); }
 
-    /// For libraries that write to a path by themselves: gives the file a temporary name, with the target's extension. Not to
-    /// be mixed with `write`.
+    /// For libraries that write to a path by themselves: gives the file a temporary name, with the target's extension. Not
+    /// to be mixed with `write`.
     const std::filesystem::path& temporary_path();
 
     /// Flushes to the disk and renames. Call once, last.

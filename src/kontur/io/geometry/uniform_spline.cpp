@@ -61,8 +61,7 @@ struct Stretch {
 
     double off_chord() const {
         double off = 0;
-        for (int i = 1; i < kMostSteps; ++i)
-            off = std::max(off, distance_to_segment(at(double(i) / kMostSteps), from, to));
+        for (int i = 1; i < kMostSteps; ++i) off = std::max(off, distance_to_segment(at(double(i) / kMostSteps), from, to));
         return off;
     }
 };

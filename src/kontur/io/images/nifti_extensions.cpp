@@ -129,7 +129,8 @@ std::vector<NamedLabel> read_nifti_labels(const fs::path& path) {
     for (const NiftiExtension& extension : read_nifti_extensions(path)) {
         const std::string_view text = extension.content;
         const std::size_t begin = text.find(kBegin), end = text.find(kEnd);
-        if (extension.code == kNiftiCommentCode || begin == std::string_view::npos || end == std::string_view::npos) continue;
+        if (extension.code == kNiftiCommentCode || begin == std::string_view::npos || end == std::string_view::npos)
+            continue;
         if (end > begin) return labels_in(text.substr(begin, end - begin));
     }
     return {};
@@ -144,8 +145,9 @@ NiftiExtension label_table(const std::vector<NamedLabel>& labels) {
         text += fmt::format("<Label Key=\"{}\" Red=\"{:g}\" Green=\"{:g}\" Blue=\"{:g}\" Alpha=\"1\">{}{}{}</Label>",
                             label.label, label.color[0], label.color[1], label.color[2], kCdataBegin, name, kCdataEnd);
     }
-    text += "</LabelTable><StudyMetaDataLinkSet></StudyMetaDataLinkSet><VolumeType><![CDATA[Label]]></VolumeType>"
-            "</VolumeInformation></CaretExtension>";
+    text +=
+        "</LabelTable><StudyMetaDataLinkSet></StudyMetaDataLinkSet><VolumeType><![CDATA[Label]]></VolumeType>"
+        "</VolumeInformation></CaretExtension>";
     return {kNiftiCaretCode, std::move(text)};
 }
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "kontur/fill_labels.h"
-#include "made.h"
 #include "requests.h"
+#include "result.h"
 #include "samples.h"
 
 using namespace kontur;
@@ -27,19 +27,19 @@ json to_json(const FillReport& report) {
 }
 
 /// Of two typed arrays on one grid; without an image, 0.
-Made* filled(std::string_view text, const void* labels, const void* image) {
+Result* filled(std::string_view text, const void* labels, const void* image) {
     const FillRequest request = fill_request_from(text);
     const Image painted_on = image ? image_from(image, request.image_type, request.grid) : Image{};
     const Filling result = fill_labels(image_from(labels, request.labels_type, request.grid), image ? &painted_on : nullptr,
                                        request.options, told_work());
-    auto made = std::make_unique<Made>();
-    made->about = {{"report", to_json(result.report)}, {"type", type_of(result.labels)}};
-    made->voxels = bytes_of(result.labels);
-    return made.release();
+    auto result = std::make_unique<Result>();
+    result->about = {{"report", to_json(result.report)}, {"type", type_of(result.labels)}};
+    result->voxels = bytes_of(result.labels);
+    return result.release();
 }
 
 }  // namespace
 
-KONTUR_EXPORT(kontur_fill)(const char* request, std::size_t length, const void* labels, const void* image)->Made* {
+KONTUR_EXPORT(kontur_fill)(const char* request, std::size_t length, const void* labels, const void* image)->Result* {
     return or_error([&] { return filled({request, length}, labels, image); });
 }

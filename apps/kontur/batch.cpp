@@ -301,10 +301,10 @@ private:
     static std::string line_about(const Case& one, const Facts& facts) {
         if (!succeeded(facts)) return fmt::format("{}: FAILED, {}\n", one.name, facts["error"].get<std::string>());
         const double volume_ml = facts.contains("mask") ? facts["mask"].value("volume_ml", 0.0) : 0.0;
-        const std::string made =
+        const std::string amount =
             facts.contains("structures") ? counted(facts["structures"].size(), "structure") : in_ml(volume_ml);
         const std::size_t warnings = warning_count(facts);
-        return fmt::format("{}: {}, {:.1f} s{}\n", one.name, made, facts["seconds"].get<double>(),
+        return fmt::format("{}: {}, {:.1f} s{}\n", one.name, amount, facts["seconds"].get<double>(),
                            warnings > 0 ? ", " + counted(warnings, "warning") : "");
     }
 

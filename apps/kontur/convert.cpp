@@ -100,15 +100,15 @@ Image on_grid_of(const Image& labels, const ImageInput& source, const ImageInput
     check_labels(labels, source);
     ReadImageOptions read = image.options;
     read.frame.reset();  // chosen of the labels
-    Image moved = labels_on_grid(labels, read_grid(image.path, read, console.work()));
-    const double before = volume_ml(labels), after = volume_ml(moved);
+    Image fitted = labels_on_grid(labels, read_grid(image.path, read, console.work()));
+    const double before = volume_ml(labels), after = volume_ml(fitted);
     if (std::abs(before - after) > 1e-6 * before)
         console.warn(fmt::format("on the grid of {} the labels have {:.4g} ml in place of {:.4g} ml", image.path.string(),
                                  after, before));
-    return moved;
+    return fitted;
 }
 
-void convert_image(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
+void convert_image(const ConvertCommand& command, const fs::path& output, const Provenance& provenance, Console& console) {
     const ImageInput input{command.input.path, console.noting(command.input.options)};
     const ImageInput images{command.image, console.noting(command.input.options)};
     if (is_dicom_name(output))
@@ -122,7 +122,9 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
                                 command.input.path.string()));
     if (by_itself && has_room_for_overlap(output)) {
         const Structures all = structures_of(command, console);
-        const auto write = [&] { return write_structures({output, images, command.series, made}, all, console.work()); };
+        const auto write = [&] {
+            return write_structures({output, images, command.series, provenance}, all, console.work());
+        };
         return console.note(command.more.empty() ? in_faults_of(input.path, write) : write());
     }
     if (by_itself && !is_dicom_seg(input.path))  // of which the reader says which
@@ -134,11 +136,11 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
     const bool as_it_is = !command.label && !has_room_for_overlap(output) && !onto_grid;
     const Image image =
         as_it_is ? read_image(input.path, input.options, console.work()) : read_labels(input, command.label, console.work());
-    console.note(write_image({output, images, command.series, made},
+    console.note(write_image({output, images, command.series, provenance},
                              onto_grid ? on_grid_of(image, input, images, console) : image, input, console.work()));
 }
 
-void convert_to_mask(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
+void convert_to_mask(const ConvertCommand& command, const fs::path& output, const Provenance& provenance, Console& console) {
     const ImageInput images{command.image, console.noting(command.input.options)};
     const fs::path& path = command.input.path;
     MeshMask inside = in_faults_of(path, [&] {
@@ -149,11 +151,11 @@ void convert_to_mask(const ConvertCommand& command, const fs::path& output, cons
                     fmt::format("no voxel of {} lies within {}", command.image.string(), path.string()));
     if (inside.is_cut)
         console.warn(fmt::format("{} reaches beyond {} and is cut off there", path.string(), command.image.string()));
-    if (!has_room_for_overlap(output)) return write_mask(output, inside.mask, {.provenance = made});
+    if (!has_room_for_overlap(output)) return write_mask(output, inside.mask, {.provenance = provenance});
     Structures one;
     one.segments.push_back({.label = printable_utf8(path.stem().string()), .color = kStructureColor});
     one.masks.push_back(std::move(inside.mask));
-    console.note(write_structures({output, images, command.series, made}, one, console.work()));
+    console.note(write_structures({output, images, command.series, provenance}, one, console.work()));
 }
 
 /// Throws Error(invalid_input) for an empty structure set, and for contours that formats without planes would bend: of an
@@ -168,10 +170,10 @@ void check_drawn(const ConvertCommand& command, const ContourSet& set) {
 }
 
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
-    const Provenance made = provenance_of(command, console.work());
+    const Provenance provenance = provenance_of(command, console.work());
     switch (kind) {
         case FileKind::image:
-            return convert_image(command, output, made, console);
+            return convert_image(command, output, provenance, console);
         case FileKind::contours: {
             ReadContours loaded = read_contours(command.input.path, command.contours);
             if (command.input.options.frame) set_frame(loaded.contours, static_cast<double>(*command.input.options.frame));
@@ -180,12 +182,12 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
             const ImageInput images{command.image, console.noting(command.input.options)};
             for (const std::string& note : frame_of_reference_notes(loaded.frame_of_reference_uid, images))
                 console.warn(note);
-            return console.note(
-                write_contours(output, loaded.contours, images, rtstruct_options(command.holes, command.series, made)));
+            return console.note(write_contours(output, loaded.contours, images,
+                                               rtstruct_options(command.holes, command.series, provenance)));
         }
         case FileKind::mesh:
-            if (makes_mask(kind, command.output)) return convert_to_mask(command, output, made, console);
-            return write_mesh(output, read_mesh(command.input.path), made);
+            if (makes_mask(kind, command.output)) return convert_to_mask(command, output, provenance, console);
+            return write_mesh(output, read_mesh(command.input.path), provenance);
     }
 }
 

@@ -86,8 +86,8 @@ Provenance provenance_of(const CorrectCommand& command, const Work& work) {
 
 Facts point_facts(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-Facts report_of(const CorrectReport& report, const std::vector<std::string>& warnings, const Provenance& made) {
-    Facts planes = Facts::array(), pieces = Facts::array(), provenance = Facts::object();
+Facts report_of(const CorrectReport& report, const std::vector<std::string>& warnings, const Provenance& provenance) {
+    Facts planes = Facts::array(), pieces = Facts::array();
     for (const CorrectedPlane& one : report.planes) {
         Facts contours = Facts::array();
         for (const std::size_t contour : one.contours) contours.push_back(contour + 1);
@@ -100,7 +100,6 @@ Facts report_of(const CorrectReport& report, const std::vector<std::string>& war
     for (const LoosePiece& piece : report.loose_pieces)
         pieces.push_back(
             {{"voxels", piece.voxels}, {"volume_ml", piece.volume_ml}, {"position", point_facts(piece.position)}});
-    for (const auto& [name, value] : made) provenance[name] = value;
     Facts image = nullptr;
     if (report.image)
         image = {{"weight", report.image->weight},
@@ -108,7 +107,7 @@ Facts report_of(const CorrectReport& report, const std::vector<std::string>& war
                  {"wrong_without", report.image->wrong_without},
                  {"wrong_with", report.image->wrong_with}};
     return {{"version", KONTUR_VERSION},
-            {"provenance", provenance},
+            {"provenance", provenance_facts(provenance)},
             {"length_mm", report.length_mm},
             {"reach_mm", report.reach_mm},
             {"planes", planes},
@@ -161,21 +160,21 @@ std::vector<std::string> loose_sentences(const CorrectReport& report) {
 }  // namespace
 
 CorrectedFile correct_file(const CorrectCommand& command, Console& console, const Work& work) {
-    CorrectedFile made{read_mask_file(command, console, work), {}, {}, {}, {}};
-    if (command.shared_borders && !made.file.structures.segments.empty())
+    CorrectedFile result{read_mask_file(command, console, work), {}, {}, {}, {}};
+    if (command.shared_borders && !result.file.structures.segments.empty())
         refuse_for_labels_alone("--shared-borders", command.mask.path);
     const std::optional<Image> image = shown_in(command, console, work);
-    const Mask& mask = made.file.mask;
+    const Mask& mask = result.file.mask;
     ReadCorrections read = read_corrections(command.corrections, command.read);
-    made.notes = std::move(read.notes);
-    made.corrected =
+    result.notes = std::move(read.notes);
+    result.corrected =
         correct({mask, ExistingSurface(mask, work), image ? &*image : nullptr}, read.corrections, command.options, work);
-    made.warnings = made.corrected.report.warnings;
+    result.warnings = result.corrected.report.warnings;
     for (const auto& some :
-         {put(made.file, made.corrected, command.shared_borders, work), loose_sentences(made.corrected.report)})
-        made.warnings.insert(made.warnings.end(), some.begin(), some.end());
-    made.made = provenance_of(command, work);
-    return made;
+         {put(result.file, result.corrected, command.shared_borders, work), loose_sentences(result.corrected.report)})
+        result.warnings.insert(result.warnings.end(), some.begin(), some.end());
+    result.provenance = provenance_of(command, work);
+    return result;
 }
 
 void run(const CorrectCommand& command, Console& console) {
@@ -186,15 +185,16 @@ void run(const CorrectCommand& command, Console& console) {
     for (const std::string& warning : of.warnings) console.warn(warning);
     const CorrectReport& report = of.corrected.report;
     Outputs outputs;
-    outputs.write(command.output,
-                  [&](const fs::path& path) { console.note(write_mask_file(path, of.file, command, of.made, console)); });
+    outputs.write(command.output, [&](const fs::path& path) {
+        console.note(write_mask_file(path, of.file, command, of.provenance, console));
+    });
     if (!command.provenance_map.empty())
         outputs.write(command.provenance_map, [&](const fs::path& path) {
-            kontur::write_image(path, {of.corrected.mask.grid, of.corrected.origin}, {origin_names(), of.made});
+            kontur::write_image(path, {of.corrected.mask.grid, of.corrected.origin}, {origin_names(), of.provenance});
         });
     if (!command.report.empty())
         outputs.write(command.report, [&](const fs::path& path) {
-            write_file_atomically(path, to_json_text(report_of(report, of.warnings, of.made)));
+            write_file_atomically(path, to_json_text(report_of(report, of.warnings, of.provenance)));
         });
     outputs.commit();
     if (report.image) console.note(std::array{sentence(*report.image)});

@@ -62,10 +62,10 @@ Provenance provenance_of(const DeriveCommand& command, const std::vector<std::st
     for (std::size_t n = 0; n < command.inputs.size(); ++n)
         inputs.emplace_back(command.inputs.size() == 1 ? "input" : fmt::format("input_{}", n + 1), command.inputs[n]);
     inputs.emplace_back("image", command.image.path);
-    Provenance made = made_by("derive", inputs, fmt::format("use_image={}", name(command.segment.use_image)), work);
+    Provenance provenance = made_by("derive", inputs, fmt::format("use_image={}", name(command.segment.use_image)), work);
     for (std::size_t n = 0; n < rules.size(); ++n)
-        made.emplace_back(fmt::format("rule_{}", n + 1), printable_utf8(rules[n]));
-    return made;
+        provenance.emplace_back(fmt::format("rule_{}", n + 1), printable_utf8(rules[n]));
+    return provenance;
 }
 
 double volume_ml(const Mask& mask) {
@@ -74,9 +74,9 @@ double volume_ml(const Mask& mask) {
 }
 
 /// Of all structures, sources first.
-std::vector<StructureRelation> relations_of(DeriveSources sources, const std::vector<DerivedStructure>& made,
+std::vector<StructureRelation> relations_of(DeriveSources sources, const std::vector<DerivedStructure>& derived,
                                             const Work& work) {
-    for (const DerivedStructure& one : made) sources.structures.push_back({one.name, one.mask, {}});
+    for (const DerivedStructure& one : derived) sources.structures.push_back({one.name, one.mask, {}});
     return relations(sources.structures, work);
 }
 
@@ -87,10 +87,10 @@ void run(const DeriveCommand& command, Console& console) {
     check(command, rules);
     const Work work = console.work(command.threads);
     const DeriveSources sources = read_derive_sources(command, rules, console, work);
-    std::vector<DerivedStructure> made =
+    std::vector<DerivedStructure> derived =
         derive(rules, sources.structures, {.image = sources.image ? &*sources.image : nullptr}, work);
     std::string text;
-    for (const DerivedStructure& one : made) {
+    for (const DerivedStructure& one : derived) {
         text += fmt::format("{}: {}\n", one.name, in_ml(volume_ml(one.mask)));
         if (one.outlines.contours.empty()) console.warn(fmt::format("'{}' is empty: {}", one.name, one.rule));
     }
@@ -99,8 +99,8 @@ void run(const DeriveCommand& command, Console& console) {
     const auto add = [&](const std::vector<std::string>& more) { notes.insert(notes.end(), more.begin(), more.end()); };
     if (!command.table.empty())
         outputs.write(command.table,
-                      [&](const fs::path& path) { write_relations(path, relations_of(sources, made, work)); });
-    const std::vector<DeriveOutput> all = derive_outputs(command, sources, std::move(made), work);
+                      [&](const fs::path& path) { write_relations(path, relations_of(sources, derived, work)); });
+    const std::vector<DeriveOutput> all = derive_outputs(command, sources, std::move(derived), work);
     const Provenance how = provenance_of(command, rules, work);
     if (!command.output.empty())
         outputs.write(command.output, [&](const fs::path& path) { add(write_derived(path, command, all, how, work)); });

@@ -65,7 +65,8 @@ Structures structures_of(const std::vector<DeriveOutput>& all, std::vector<std::
     return found;
 }
 
-std::vector<std::string> write_map(const fs::path& path, const std::vector<DeriveOutput>& all, const Provenance& made) {
+std::vector<std::string> write_map(const fs::path& path, const std::vector<DeriveOutput>& all,
+                                   const Provenance& provenance) {
     const Grid& grid = all.front().mask.grid;
     const IndexBox whole{{0, 0, 0}, {grid.size.i - 1, grid.size.j - 1, grid.size.k - 1}};
     RoiLabelMap map(grid, false);
@@ -77,7 +78,7 @@ std::vector<std::string> write_map(const fs::path& path, const std::vector<Deriv
         names.push_back(one.outlines.name);
         labels.push_back({label, one.outlines.name, to_levels(*one.outlines.attributes.color)});
     }
-    kontur::write_image(path, map.image(), {labels, made});
+    kontur::write_image(path, map.image(), {labels, provenance});
     return map.notes(names);
 }
 
@@ -105,7 +106,7 @@ void check_types(const std::vector<std::string>& types) {
 }
 
 std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const DeriveSources& sources,
-                                         std::vector<DerivedStructure> made, const Work& work) {
+                                         std::vector<DerivedStructure> derived, const Work& work) {
     std::vector<DeriveOutput> all;
     if (command.with_sources)
         for (std::size_t n = 0; n < sources.structures.size(); ++n) {
@@ -118,7 +119,7 @@ std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const Der
             outlines.attributes.review = {.comment = outlines.attributes.review.comment};  // nobody has seen these outlines
             all.push_back({one.mask, std::move(outlines), false});
         }
-    for (DerivedStructure& one : made) {
+    for (DerivedStructure& one : derived) {
         one.outlines.attributes = derived_attributes(one);
         all.push_back({std::move(one.mask), std::move(one.outlines), true});
     }
@@ -136,21 +137,22 @@ std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const Der
 }
 
 std::vector<std::string> write_derived(const fs::path& path, const DeriveCommand& command,
-                                       const std::vector<DeriveOutput>& all, const Provenance& made, const Work& work) {
+                                       const std::vector<DeriveOutput>& all, const Provenance& provenance,
+                                       const Work& work) {
     if (has_extension(path, ".json")) {
-        kontur::write_contours(path, all.front().outlines, made);
+        kontur::write_contours(path, all.front().outlines, provenance);
         return {};
     }
-    if (!has_room_for_overlap(path)) return write_map(path, all, made);
+    if (!has_room_for_overlap(path)) return write_map(path, all, provenance);
     std::vector<std::string> notes;
     const Structures structures = structures_of(all, notes);
-    for (const std::string& note : write_structures({path, command.image, command.series, made}, structures, work))
+    for (const std::string& note : write_structures({path, command.image, command.series, provenance}, structures, work))
         notes.push_back(note);
     return notes;
 }
 
 std::vector<std::string> write_derived_rtstruct(const fs::path& path, const DeriveCommand& command,
-                                                const std::vector<DeriveOutput>& all, const Provenance& made) {
+                                                const std::vector<DeriveOutput>& all, const Provenance& provenance) {
     std::vector<std::string> notes;
     std::vector<ContourSet> sets;
     for (const DeriveOutput& one : all) {
@@ -160,7 +162,7 @@ std::vector<std::string> write_derived_rtstruct(const fs::path& path, const Deri
     }
     if (sets.empty()) refuse("no structure has a contour, and an RTSTRUCT needs at least 1 that has");
     for (const std::string& note :
-         write_contours_of_all(path, sets, command.image, rtstruct_options(command.holes, command.series, made)))
+         write_contours_of_all(path, sets, command.image, rtstruct_options(command.holes, command.series, provenance)))
         notes.push_back(note);
     return notes;
 }

@@ -22,7 +22,7 @@ struct DeriveOutput {
 /// follow from names that begin with GTV, CTV or PTV and from BODY and EXTERNAL. Throws Error(invalid_input) for a --type of
 /// none.
 std::vector<DeriveOutput> derive_outputs(const DeriveCommand& command, const DeriveSources& sources,
-                                         std::vector<DerivedStructure> made, const Work& work);
+                                         std::vector<DerivedStructure> derived, const Work& work);
 
 /// What is said of a derived structure beside its voxels.
 DicomSegment derived_segment(const std::string& name, const StructureAttributes& attributes);
@@ -32,9 +32,9 @@ void check_types(const std::vector<std::string>& types);
 
 /// Write to the name's format and return what the user should know.
 std::vector<std::string> write_derived(const std::filesystem::path& path, const DeriveCommand& command,
-                                       const std::vector<DeriveOutput>& all, const Provenance& made, const Work& work);
+                                       const std::vector<DeriveOutput>& all, const Provenance& provenance, const Work& work);
 std::vector<std::string> write_derived_rtstruct(const std::filesystem::path& path, const DeriveCommand& command,
-                                                const std::vector<DeriveOutput>& all, const Provenance& made);
+                                                const std::vector<DeriveOutput>& all, const Provenance& provenance);
 /// Each structure against each other, as CSV.
 void write_relations(const std::filesystem::path& path, const std::vector<StructureRelation>& relations);
 

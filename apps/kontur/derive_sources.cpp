@@ -131,9 +131,10 @@ NamedStructure structure_of(const FileStructure& from, const Scene& scene, const
     SegmentOptions options = command.segment;
     options.drawn_on = scene.drawn_on;
     try {
-        Segmentation made = segment(roi.contours, scene.grid, scene.image ? &*scene.image : nullptr, options, work);
-        for (const std::string& warning : made.report.warnings) console.warn(fmt::format("{}: {}", from.name, warning));
-        return {from.name, std::move(made.mask), std::move(made.function)};
+        Segmentation segmentation = segment(roi.contours, scene.grid, scene.image ? &*scene.image : nullptr, options, work);
+        for (const std::string& warning : segmentation.report.warnings)
+            console.warn(fmt::format("{}: {}", from.name, warning));
+        return {from.name, std::move(segmentation.mask), std::move(segmentation.function)};
     } catch (const Error& error) {
         throw error.with_context(fmt::format("{}: '{}'", from.file.string(), from.name));
     }

@@ -21,9 +21,9 @@ void check_roi_derivation(const SegmentCommand& command, const RoiDrawings& draw
 
 void add_derived_rois(const SegmentCommand& command, const RoiDrawings& drawings, RoiResults& results, const Work& work) {
     const std::vector<std::string> rules = read_rules_file(command.rules);
-    std::vector<DerivedStructure> made =
+    std::vector<DerivedStructure> derived =
         derive(rules, results.for_rules, {.image = drawings.image ? &*drawings.image : nullptr}, work);
-    for (DerivedStructure& one : made) {
+    for (DerivedStructure& one : derived) {
         FittedRoi derived;
         derived.rule = one.rule;
         derived.roi.name = one.name;

@@ -28,11 +28,11 @@ DicomSeries series_of(const ImageInput& images) {
     return std::move(found.series);
 }
 
-WriteDicomSegOptions seg_options(const SeriesWords& series, const Provenance& made) {
+WriteDicomSegOptions seg_options(const SeriesWords& series, const Provenance& provenance) {
     WriteDicomSegOptions options;
     options.series_number = series.number;
     if (!series.description.empty()) options.series_description = series.description;
-    options.provenance = made;
+    options.provenance = provenance;
     return options;
 }
 
@@ -77,12 +77,12 @@ void check_series(const SeriesWords& series, std::span<const fs::path> outputs) 
 }
 
 WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, const SeriesWords& series,
-                                      const Provenance& made) {
+                                      const Provenance& provenance) {
     WriteRtstructOptions options;
     options.series_number = series.number;
     if (!series.description.empty()) options.series_description = series.description;
     options.holes = holes.value_or(options.holes);
-    options.provenance = made;
+    options.provenance = provenance;
     return options;
 }
 

@@ -34,7 +34,7 @@ void check_holes(const std::optional<HoleEncoding>& holes, bool is_rtstruct);
 void check_series(const SeriesWords& series, std::span<const std::filesystem::path> outputs);
 
 WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, const SeriesWords& series,
-                                      const Provenance& made);
+                                      const Provenance& provenance);
 
 /// The frame of reference that a mask names: of a DICOM segmentation; else "".
 std::string frame_of_reference_of(const std::filesystem::path& mask);

@@ -16,8 +16,9 @@ std::optional<Image> readable_image(const ImageInput& input, const Work& work, s
         return read_image(input.path, input.options, work);
     } catch (const Error& error) {
         std::error_code unreachable;
-        const bool asked = input.options.frame && error.kind() == ErrorKind::invalid_input;  // for what is not there
-        if (asked || error.kind() == ErrorKind::cancelled || !std::filesystem::exists(input.path, unreachable)) throw;
+        const bool missing_frame = input.options.frame && error.kind() == ErrorKind::invalid_input;  // for what is not there
+        if (missing_frame || error.kind() == ErrorKind::cancelled || !std::filesystem::exists(input.path, unreachable))
+            throw;
         sentence = fmt::format("the image was not used between the contours: {}", error.what());
         return {};
     }

@@ -62,4 +62,10 @@ Facts number(double value) {
     return std::isfinite(value) ? Facts(value + 0.0) : Facts(fmt::format("{}", value));  // -0.0 + 0.0 is 0.0
 }
 
+Facts provenance_facts(const Provenance& provenance) {
+    Facts facts = Facts::object();
+    for (const auto& [name, value] : provenance) facts[name] = value;
+    return facts;
+}
+
 }  // namespace kontur::app

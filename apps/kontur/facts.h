@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "kontur/shape/provenance.h"
+
 namespace kontur::app {
 
 /// What a command found out, as ordered names and values: printed as JSON for programs or as text for people, with the same
@@ -18,5 +20,8 @@ std::string to_json_text(const Facts& facts);
 
 /// A number as JSON where JSON has it; NaN and infinity as text. No zero has a sign.
 Facts number(double value);
+
+/// How a file was made: an object.
+Facts provenance_facts(const Provenance& provenance);
 
 }  // namespace kontur::app

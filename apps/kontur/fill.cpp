@@ -55,9 +55,9 @@ Facts image_facts(const ImageReport& image) {
     return facts;
 }
 
-Facts report_of(const FilledFile& filled, const std::vector<std::string>& warnings, const Provenance& made) {
+Facts report_of(const FilledFile& filled, const std::vector<std::string>& warnings, const Provenance& provenance) {
     const FillReport& report = filled.report;
-    Facts labels = Facts::array(), provenance = Facts::object(), seconds = Facts::object();
+    Facts labels = Facts::array(), seconds = Facts::object();
     for (std::size_t n = 0; n < report.labels.size(); ++n) {
         const FilledLabel& one = report.labels[n];
         labels.push_back({{"label", one.label}});
@@ -68,16 +68,11 @@ Facts report_of(const FilledFile& filled, const std::vector<std::string>& warnin
                               {"image", image_facts(one.image)},
                               {"warnings", one.warnings}});
     }
-    for (const auto& [name, value] : made) provenance[name] = value;
     for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
-    return {{"version", KONTUR_VERSION},
-            {"provenance", provenance},
-            {"labels", labels},
-            {"warnings", warnings},
-            {"contested_voxels", report.contested_voxels},
-            {"closed_voxels", report.closed_voxels},
-            {"seconds", seconds},
-            {"peak_memory_mb", peak_memory_mb()}};
+    return {
+        {"version", KONTUR_VERSION}, {"provenance", provenance_facts(provenance)},  {"labels", labels},
+        {"warnings", warnings},      {"contested_voxels", report.contested_voxels}, {"closed_voxels", report.closed_voxels},
+        {"seconds", seconds},        {"peak_memory_mb", peak_memory_mb()}};
 }
 
 std::string slices_of(const FilledLabel& one) {
@@ -168,15 +163,15 @@ FilledFile fill_files(const FillCommand& command, Console& console, const Work& 
         file.names = names_of(input, filling.report);
         file.report = std::move(filling.report);
     }
-    const Provenance made = provenance_of(command, work);
+    const Provenance provenance = provenance_of(command, work);
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {
-        const OutputFile output{path, images, command.series, made};
+        const OutputFile output{path, images, command.series, provenance};
         console.note(overlaps ? write_filled(output, each, work) : write_image(output, filled, input, work));
     });
     if (!command.report.empty())
         outputs.write(command.report, [&](const fs::path& path) {
-            write_file_atomically(path, to_json_text(report_of(file, warnings, made)));
+            write_file_atomically(path, to_json_text(report_of(file, warnings, provenance)));
         });
     outputs.commit();
     return file;

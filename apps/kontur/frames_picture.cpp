@@ -117,12 +117,12 @@ private:
 
 }  // namespace
 
-void write_picture_of_frames(const std::filesystem::path& path, const SegmentedFrames& segmented, const Provenance& made,
-                             const Work& work) {
+void write_picture_of_frames(const std::filesystem::path& path, const SegmentedFrames& segmented,
+                             const Provenance& provenance, const Work& work) {
     const FramesPicture picture(segmented);
     if (is_animation(segmented.command))
-        write_animated_png(path, picture.moving(work), segmented.frames.step_s.value_or(kUsualSeconds), made);
-    else write_png(path, picture.still(work), made);
+        write_animated_png(path, picture.moving(work), segmented.frames.step_s.value_or(kUsualSeconds), provenance);
+    else write_png(path, picture.still(work), provenance);
 }
 
 }  // namespace kontur::app

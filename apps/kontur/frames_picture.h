@@ -16,7 +16,7 @@ struct SegmentedFrames {
 };
 
 /// The volume's curve with the frames of the largest and the smallest; in .apng all frames, one after the other.
-void write_picture_of_frames(const std::filesystem::path& path, const SegmentedFrames& segmented, const Provenance& made,
-                             const Work& work);
+void write_picture_of_frames(const std::filesystem::path& path, const SegmentedFrames& segmented,
+                             const Provenance& provenance, const Work& work);
 
 }  // namespace kontur::app

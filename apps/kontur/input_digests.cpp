@@ -27,10 +27,10 @@ std::string image_sha256(const fs::path& image, const Work& work) {
 
 /// Appends what an input says of itself, `name` in front of each of its names. A file that came by very many steps keeps
 /// what its last ones say.
-void carry_on(Provenance& made, const std::string& name, const Provenance& input) {
+void carry_on(Provenance& provenance, const std::string& name, const Provenance& input) {
     constexpr std::size_t kMostEntries = 100;
     for (const auto& [its_name, value] : input)
-        if (made.size() < kMostEntries) made.emplace_back(fmt::format("{}_{}", name, its_name), value);
+        if (provenance.size() < kMostEntries) provenance.emplace_back(fmt::format("{}_{}", name, its_name), value);
 }
 
 std::time_t seconds_since_1970(std::string_view text) {
@@ -54,14 +54,14 @@ Provenance input_digests(const SegmentCommand& command, const Work& work) {
 
 Provenance made_by(const std::string& command, const std::vector<std::pair<std::string, fs::path>>& inputs,
                    const std::string& options, const Work& work) {
-    Provenance made{{"made_by", "kontur " + command}};
+    Provenance provenance{{"made_by", "kontur " + command}};
     for (const auto& [name, path] : inputs)
-        if (!path.empty()) made.emplace_back(name + "_sha256", image_sha256(path, work));
-    made.emplace_back("version", KONTUR_VERSION);
-    if (!options.empty()) made.emplace_back("options", options);
+        if (!path.empty()) provenance.emplace_back(name + "_sha256", image_sha256(path, work));
+    provenance.emplace_back("version", KONTUR_VERSION);
+    if (!options.empty()) provenance.emplace_back("options", options);
     for (const auto& [name, path] : inputs)
-        if (!path.empty()) carry_on(made, name, read_provenance(path));
-    return made;
+        if (!path.empty()) carry_on(provenance, name, read_provenance(path));
+    return provenance;
 }
 
 std::string utc_date() {

@@ -47,7 +47,7 @@ SliceAxis slice_axis(const Image& labels, const Grid& grid) {
 
 /// `is_kept` is asked for the place of each voxel of the grid among the labels' indices.
 template <class IsKept>
-Image moved(const Image& labels, const Grid& grid, const IsKept& is_kept) {
+Image resampled(const Image& labels, const Grid& grid, const IsKept& is_kept) {
     check_image(labels);
     check_grid(grid);
     const Affine3 mm_to_index = labels.grid.index_to_mm.inverse();
@@ -72,12 +72,12 @@ Image moved(const Image& labels, const Grid& grid, const IsKept& is_kept) {
 }  // namespace
 
 Image labels_on_grid(const Image& labels, const Grid& grid) {
-    return moved(labels, grid, [](const Vec3&) { return true; });
+    return resampled(labels, grid, [](const Vec3&) { return true; });
 }
 
 Image slices_on_grid(const Image& labels, const Grid& grid) {
     const SliceAxis slices = slice_axis(labels, grid);
-    return moved(labels, grid, [&](const Vec3& index) {
+    return resampled(labels, grid, [&](const Vec3& index) {
         const double beside = index[slices.axis] - std::round(index[slices.axis]);
         constexpr double kTie = 1e-6;  // of two slices as near to one the first is taken
         return slices.step >= 1 || (beside > -slices.step / 2 - kTie && beside <= slices.step / 2 - kTie);

@@ -214,9 +214,9 @@ std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected, boo
 }
 
 std::vector<std::string> write_mask_file(const fs::path& path, const MaskFile& file, const CorrectCommand& command,
-                                         const Provenance& made, Console& console) {
+                                         const Provenance& provenance, Console& console) {
     const ImageInput images = image_of(command, console), source{command.mask.path, console.noting(command.mask.options)};
-    const OutputFile output{path, images, command.series, made};
+    const OutputFile output{path, images, command.series, provenance};
     const Work work = console.work(command.threads);
     if (file.structures.segments.empty()) {
         if (!is_dicom_name(path)) return write_image(output, file.labels, source, work);
@@ -232,7 +232,7 @@ std::vector<std::string> write_mask_file(const fs::path& path, const MaskFile& f
         return in_faults_of(source.path, [&] { return write_structures(output, structures, work); });
     const LabelName name{file.label, segment.label, to_levels(segment.color.value_or(kStructureColor)),
                          tags_of(structures, file.chosen)};
-    kontur::write_image(path, label_map(structures.masks[file.chosen], file.label), {{name}, made});
+    kontur::write_image(path, label_map(structures.masks[file.chosen], file.label), {{name}, provenance});
     return {};
 }
 

@@ -46,13 +46,13 @@ struct CorrectedFile {
     CorrectedMask corrected;
     std::vector<std::string> notes;     ///< on the corrections as they were read
     std::vector<std::string> warnings;  ///< of all kinds
-    Provenance made;
+    Provenance provenance;
 };
 CorrectedFile correct_file(const CorrectCommand& command, Console& console, const Work& work);
 
 /// Writes the file with the corrected mask in the format of the name. A SEG says that the segment was made
 /// SEMIAUTOMATIC, by its source and kontur. Returns what the user should know.
 std::vector<std::string> write_mask_file(const std::filesystem::path& path, const MaskFile& file,
-                                         const CorrectCommand& command, const Provenance& made, Console& console);
+                                         const CorrectCommand& command, const Provenance& provenance, Console& console);
 
 }  // namespace kontur::app

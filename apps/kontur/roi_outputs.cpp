@@ -47,7 +47,7 @@ void RoiResults::add(const SegmentCommand& command, FittedRoi one, ContourSet ou
     structures.masks.push_back(std::move(mask));
 }
 
-Facts roi_report(const RoiResults& result, const Provenance& made) {
+Facts roi_report(const RoiResults& result, const Provenance& provenance) {
     Facts structures = Facts::array(), derived = Facts::array();
     for (const FittedRoi& one : result.all) {
         if (!one.rule.empty()) {
@@ -59,13 +59,13 @@ Facts roi_report(const RoiResults& result, const Provenance& made) {
             continue;
         }
         Facts facts{{"label", one.segment.number}, {"name", one.segment.label}};
-        facts.update(Facts::parse(kontur::to_json(one.report, one.made)));
+        facts.update(Facts::parse(kontur::to_json(one.report, one.provenance)));
         structures.push_back(std::move(facts));
     }
-    Facts provenance = Facts::object();
-    for (const auto& [name, value] : made) provenance[name] = value;
-    Facts report{
-        {"version", KONTUR_VERSION}, {"provenance", provenance}, {"structures", structures}, {"warnings", result.notes}};
+    Facts report{{"version", KONTUR_VERSION},
+                 {"provenance", provenance_facts(provenance)},
+                 {"structures", structures},
+                 {"warnings", result.notes}};
     if (!derived.empty()) report["derived"] = derived;
     for (const LeftOutRoi& one : result.left_out)
         report["left_out"].push_back({{"name", one.roi.name}, {"number", one.roi.number}, {"reason", one.reason}});
@@ -78,33 +78,33 @@ Facts roi_report(const RoiResults& result, const Provenance& made) {
     return report;
 }
 
-std::vector<std::string> write_label_map(const fs::path& path, const RoiResults& result, const Provenance& made) {
+std::vector<std::string> write_label_map(const fs::path& path, const RoiResults& result, const Provenance& provenance) {
     std::vector<std::string> names;
     std::vector<LabelName> labels;
     for (const FittedRoi& one : result.all) {
         names.push_back(one.segment.label);
         labels.push_back({one.segment.number, one.segment.label, to_levels(one.segment.color.value_or(kStructureColor))});
     }
-    kontur::write_image(path, result.labels.image(), {labels, made});
+    kontur::write_image(path, result.labels.image(), {labels, provenance});
     return result.labels.notes(names);
 }
 
 std::vector<std::string> write_roi_contours(const fs::path& path, const SegmentCommand& command,
-                                            const std::vector<FittedRoi>& all, const Provenance& made) {
+                                            const std::vector<FittedRoi>& all, const Provenance& provenance) {
     StructureSet set{"kontur", {}};
     for (const FittedRoi& one : all) set.rois.push_back(one.roi);
     const DicomSeries series = read_dicom_grid(command.image.path, command.image.options.dicom).series;
-    return write_rtstruct(path, set, series, rtstruct_options(command.holes, command.series, made));
+    return write_rtstruct(path, set, series, rtstruct_options(command.holes, command.series, provenance));
 }
 
-void write_roi_surfaces(const fs::path& path, const RoiResults& result, const Provenance& made) {
+void write_roi_surfaces(const fs::path& path, const RoiResults& result, const Provenance& provenance) {
     MeshRegions regions{{}, result.surface->sides};
     for (const std::vector<std::size_t>& members : result.surface->regions) {
         std::string& name = regions.names.emplace_back();
         for (const std::size_t n : members) name += (name.empty() ? "" : " and ") + result.all[n].segment.label;
         if (members.empty()) name = "outside";
     }
-    write_region_mesh(path, result.surface->mesh, regions, made);
+    write_region_mesh(path, result.surface->mesh, regions, provenance);
 }
 
 }  // namespace kontur::app

@@ -23,7 +23,7 @@ struct FittedRoi {
     DicomSegment segment;
     Roi roi;  ///< the surface on the slices, where an RTSTRUCT is asked for
     SegmentReport report;
-    Provenance made;
+    Provenance provenance;
     std::string rule{};  ///< of a derived structure, whose report has the mask's figures alone
 };
 
@@ -46,15 +46,15 @@ struct RoiResults {
 };
 
 /// The content of --report.
-Facts roi_report(const RoiResults& results, const Provenance& made);
+Facts roi_report(const RoiResults& results, const Provenance& provenance);
 
 /// Write one output and return what the user should know.
 std::vector<std::string> write_label_map(const std::filesystem::path& path, const RoiResults& results,
-                                         const Provenance& made);
+                                         const Provenance& provenance);
 std::vector<std::string> write_roi_contours(const std::filesystem::path& path, const SegmentCommand& command,
-                                            const std::vector<FittedRoi>& all, const Provenance& made);
+                                            const std::vector<FittedRoi>& all, const Provenance& provenance);
 
 /// Regions are named by the structures that they belong to.
-void write_roi_surfaces(const std::filesystem::path& path, const RoiResults& results, const Provenance& made);
+void write_roi_surfaces(const std::filesystem::path& path, const RoiResults& results, const Provenance& provenance);
 
 }  // namespace kontur::app

@@ -119,12 +119,12 @@ void check_planes_suffice(const SegmentCommand& command, const ContourSet& conto
                                 counted(count, "different plane"), kLeastPlanes));
 }
 
-void write_uncertainty(const fs::path& path, const Inputs& inputs, const Segmentation& result, const Provenance& made,
+void write_uncertainty(const fs::path& path, const Inputs& inputs, const Segmentation& result, const Provenance& provenance,
                        const Work& work) {
     const SurfaceEvidence evidence = gather_evidence(result, inputs.contours, work);
     if (is_mesh_name(path))
-        write_mesh(path, *result.mesh, {"half_width_mm", half_widths_mm(evidence, result.mesh->points, work)}, made);
-    else write_image(path, uncertainty_map(result.mask, evidence, work), {{}, made});
+        write_mesh(path, *result.mesh, {"half_width_mm", half_widths_mm(evidence, result.mesh->points, work)}, provenance);
+    else write_image(path, uncertainty_map(result.mask, evidence, work), {{}, provenance});
 }
 
 std::string crossings_line(const std::vector<Crossing>& crossings) {

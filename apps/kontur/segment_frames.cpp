@@ -67,7 +67,7 @@ std::vector<fs::path> mesh_paths(const SegmentCommand& command, const ImageFrame
     return paths;
 }
 
-std::string json_of(const MovingSegmentation& result, const Provenance& made) {
+std::string json_of(const MovingSegmentation& result, const Provenance& provenance) {
     nlohmann::ordered_json report;
     const VolumeCurve& curve = result.volumes;
     report["frames"] = result.masks.size();
@@ -97,7 +97,7 @@ std::string json_of(const MovingSegmentation& result, const Provenance& made) {
     }
     report["warnings"] = result.warnings;
     for (const auto& [stage, seconds] : result.seconds) report["seconds"][stage] = seconds;
-    for (const auto& [name, value] : made) report["provenance"][name] = value;
+    report["provenance"] = provenance_facts(provenance);
     return report.dump(2) + "\n";
 }
 

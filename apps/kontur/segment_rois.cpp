@@ -38,21 +38,21 @@ namespace fs = std::filesystem;
 
 /// What all fits say once, what differs with the label's number behind its name.
 Provenance together(const std::vector<FittedRoi>& all) {
-    Provenance made = all.front().made;
+    Provenance provenance = all.front().provenance;
     Provenance others;
-    for (auto& [name, value] : made) {
+    for (auto& [name, value] : provenance) {
         const auto same = [&, &name = name, &value = value](const FittedRoi& one) {
-            return std::find(one.made.begin(), one.made.end(), std::pair{name, value}) != one.made.end();
+            return std::find(one.provenance.begin(), one.provenance.end(), std::pair{name, value}) != one.provenance.end();
         };
         if (std::all_of(all.begin(), all.end(), same)) continue;
         for (std::size_t n = 0; n < all.size(); ++n)
-            for (const auto& [its_name, its_value] : all[n].made)
+            for (const auto& [its_name, its_value] : all[n].provenance)
                 if (its_name == name) others.emplace_back(fmt::format("{}_{}", name, n + 1), its_value);
         name.clear();
     }
-    std::erase_if(made, [](const auto& entry) { return entry.first.empty(); });
-    made.insert(made.end(), others.begin(), others.end());
-    return made;
+    std::erase_if(provenance, [](const auto& entry) { return entry.first.empty(); });
+    provenance.insert(provenance.end(), others.begin(), others.end());
+    return provenance;
 }
 
 /// The borders of a mask on its slices, where no function says where they run.
@@ -69,7 +69,7 @@ FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& 
     FittedRoi fitted;
     fitted.segment = fitted_segment(attributes);
     fitted.segment.label = roi.name;
-    fitted.made = provenance(roi.contours, drawings.grid, result.report);
+    fitted.provenance = provenance(roi.contours, drawings.grid, result.report);
     fitted.report = std::move(result.report);
     put_notes_first(roi.notes, fitted.report.warnings);
     fitted.roi.name = roi.name;
@@ -92,12 +92,12 @@ RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, 
     const SegmentOptions options = options_for(command, drawings);
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
         try {
-            Segmentation made = segment(drawings.rois[n].contours, drawings.grid, image, options, work);
+            Segmentation segmentation = segment(drawings.rois[n].contours, drawings.grid, image, options, work);
             ContourSet outlines;
-            if (!command.rtstruct.empty()) outlines = slice_contours(made.mask, made.function, work);
-            FittedRoi one = fitted_from(drawings, n, made);
-            if (!command.rules.empty()) result.for_rules.push_back({one.roi.name, made.mask, made.function});
-            result.add(command, std::move(one), std::move(outlines), std::move(made.mask), whole_box(drawings.grid));
+            if (!command.rtstruct.empty()) outlines = slice_contours(segmentation.mask, segmentation.function, work);
+            FittedRoi one = fitted_from(drawings, n, segmentation);
+            if (!command.rules.empty()) result.for_rules.push_back({one.roi.name, segmentation.mask, segmentation.function});
+            result.add(command, std::move(one), std::move(outlines), std::move(segmentation.mask), whole_box(drawings.grid));
         } catch (const Error& error) {
             throw error.with_context(fmt::format("ROI '{}'", drawings.rois[n].name));
         }
@@ -183,12 +183,12 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     RoiResults result = command.together ? fit_together(command, drawings, work) : fit_each(command, drawings, work);
     const std::vector<FittedRoi>& all = result.all;
 
-    Provenance made = together(all);
+    Provenance provenance = together(all);
     if (!command.rules.empty()) add_derived_rois(command, drawings, result, work);
     for (const FittedRoi& one : all)
-        if (!one.rule.empty()) made.emplace_back(fmt::format("rule_{}", one.segment.number), printable_utf8(one.rule));
-    for (auto& digest : input_digests(command, work)) made.push_back(std::move(digest));
-    if (command.date) made.emplace_back("date", utc_date());
+        if (!one.rule.empty()) provenance.emplace_back(fmt::format("rule_{}", one.segment.number), printable_utf8(one.rule));
+    for (auto& digest : input_digests(command, work)) provenance.push_back(std::move(digest));
+    if (command.date) provenance.emplace_back("date", utc_date());
 
     const auto add = [&](const std::vector<std::string>& more) {
         result.notes.insert(result.notes.end(), more.begin(), more.end());
@@ -196,16 +196,18 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {
         add(has_room_for_overlap(path)
-                ? write_structures({path, command.image, command.series, made}, result.structures, work)
-                : write_label_map(path, result, made));
+                ? write_structures({path, command.image, command.series, provenance}, result.structures, work)
+                : write_label_map(path, result, provenance));
     });
     if (!command.rtstruct.empty())
-        outputs.write(command.rtstruct, [&](const fs::path& path) { add(write_roi_contours(path, command, all, made)); });
+        outputs.write(command.rtstruct,
+                      [&](const fs::path& path) { add(write_roi_contours(path, command, all, provenance)); });
     if (!command.mesh.empty())
-        outputs.write(command.mesh, [&](const fs::path& path) { write_roi_surfaces(path, result, made); });
+        outputs.write(command.mesh, [&](const fs::path& path) { write_roi_surfaces(path, result, provenance); });
     if (!command.report.empty())
-        outputs.write(command.report,
-                      [&](const fs::path& path) { write_file_atomically(path, to_json_text(roi_report(result, made))); });
+        outputs.write(command.report, [&](const fs::path& path) {
+            write_file_atomically(path, to_json_text(roi_report(result, provenance)));
+        });
     outputs.commit();
 
     for (const FittedRoi& one : all)

@@ -96,16 +96,16 @@ void run(const SlicerCorrectCommand& command, Console& console) {
     check(command);
     SlicerRun run(kName);
     const CorrectCommand& correct = command.correct;
-    const CorrectedFile made = correct_file(correct, console, run.work(correct.threads, console.stop_token()));
-    const CorrectReport& report = made.corrected.report;
+    const CorrectedFile result = correct_file(correct, console, run.work(correct.threads, console.stop_token()));
+    const CorrectReport& report = result.corrected.report;
     Outputs outputs;
     outputs.write(correct.output,
-                  [&](const fs::path& path) { write_mask_file(path, made.file, correct, made.made, console); });
+                  [&](const fs::path& path) { write_mask_file(path, result.file, correct, result.provenance, console); });
     if (!command.return_parameters.empty())
         outputs.write(command.return_parameters,
                       [&](const fs::path& path) { write_file_atomically(path, return_parameters(report)); });
     outputs.commit();
-    for (const auto& some : {made.notes, made.warnings})
+    for (const auto& some : {result.notes, result.warnings})
         for (const std::string& one : some) run.say("warning: " + one);
     if (report.image) run.say(sentence(*report.image));
     run.say(sentence(report));

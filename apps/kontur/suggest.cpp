@@ -125,11 +125,11 @@ void run(const SuggestCommand& command, Console& console) {
     SegmentOptions options = command.options;
     options.mesh = !command.sketch.empty();
     if (!command.image.path.empty()) options.drawn_on = grid;
-    const Segmentation made = segment(contours, grid, image ? &*image : nullptr, options, work);
-    for (const std::string& warning : made.report.warnings) console.warn(warning);
+    const Segmentation segmentation = segment(contours, grid, image ? &*image : nullptr, options, work);
+    for (const std::string& warning : segmentation.report.warnings) console.warn(warning);
     SuggestPlaneOptions choose{.planes = command.among};
     if (!command.image.path.empty()) choose.grid = grid;
-    const SurfaceEvidence evidence = gather_evidence(made, contours, work);
+    const SurfaceEvidence evidence = gather_evidence(segmentation, contours, work);
     choose.avoid = skipped(command.skip, evidence, contours, choose, work);
     const PlaneSuggestions found =
         suggest_planes(evidence, contours, static_cast<std::size_t>(command.planes), choose, work);
@@ -142,12 +142,12 @@ void run(const SuggestCommand& command, Console& console) {
                       [&](const std::filesystem::path& path) { write_planes_json(path, planes, contours.name); });
     if (!command.sketch.empty())
         outputs.write(command.sketch, [&](const std::filesystem::path& path) {
-            write_contour_json(path, sketch_of(planes, *made.mesh, contours));
+            write_contour_json(path, sketch_of(planes, *segmentation.mesh, contours));
         });
     outputs.commit();
 
-    const std::string about = sentence(made.report.uncertainty);
-    const ImageReport& asked = made.report.image;
+    const std::string about = sentence(segmentation.report.uncertainty);
+    const ImageReport& report = segmentation.report.image;
     if (found.planes.size() < static_cast<std::size_t>(command.planes))
         console.warn(
             fmt::format("{} of {} planes are suggested: every other one that meets the object runs along one that "
@@ -157,14 +157,14 @@ void run(const SuggestCommand& command, Console& console) {
         Facts list = Facts::array();
         for (const SuggestedPlane& one : found.planes) list.push_back(facts_of(one));
         Facts all{{"planes", list}, {"about", about}};
-        if (asked.verdict != ImageVerdict::none)
-            all["image"] = {{"verdict", std::string(name(asked.verdict))}, {"sentence", sentence(asked)}};
+        if (report.verdict != ImageVerdict::none)
+            all["image"] = {{"verdict", std::string(name(report.verdict))}, {"sentence", sentence(report)}};
         console.print(to_json_text(all));
         return;
     }
     std::string text;
     for (std::size_t n = 0; n < found.planes.size(); ++n) text += line_of(n + 1, found.planes[n]);
-    if (asked.verdict != ImageVerdict::none) text += sentence(asked) + "\n";
+    if (report.verdict != ImageVerdict::none) text += sentence(report) + "\n";
     console.print(text + about + "\n");
 }
 

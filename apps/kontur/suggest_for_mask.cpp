@@ -27,7 +27,7 @@ struct MaskSoFar {
     ContourSet drawing;
 };
 
-Image shown(const SuggestCommand& command, Console& console, const Work& work) {
+Image segmented_image(const SuggestCommand& command, Console& console, const Work& work) {
     std::string unused;
     std::optional<Image> image = readable_image({command.image.path, console.noting(command.image.options)}, work, unused);
     if (!unused.empty()) throw Error(ErrorKind::unsupported, unused);
@@ -87,7 +87,7 @@ void write(const SuggestCommand& command, const std::vector<PlaneToLookAt>& foun
 
 void run_for_mask(const SuggestCommand& command, Console& console) {
     const Work work = console.work(command.threads);
-    const Image image = shown(command, console, work);
+    const Image image = segmented_image(command, console, work);
     const MaskSoFar so_far = mask_so_far(command, image, console, work);
     const ExistingSurface surface(so_far.mask, work);
     const auto skip = static_cast<std::size_t>(command.skip), count = static_cast<std::size_t>(command.planes);

@@ -22,8 +22,8 @@ std::vector<NamedStructure> structures_from(const py::dict& given) {
     std::vector<NamedStructure> structures;
     for (const auto& [name, value] : given) {
         if (py::isinstance<Segmentation>(value)) {
-            const auto& made = value.cast<const Segmentation&>();
-            structures.push_back({name.cast<std::string>(), made.mask, made.function});
+            const auto& segmentation = value.cast<const Segmentation&>();
+            structures.push_back({name.cast<std::string>(), segmentation.mask, segmentation.function});
         } else if (py::isinstance<Mask>(value)) {
             structures.push_back({name.cast<std::string>(), value.cast<const Mask&>(), {}});
         } else {
@@ -143,10 +143,10 @@ True
            const py::object& stop) {
             const std::vector<std::string> texts = rules_from(rules);
             const std::vector<NamedStructure> named = structures_from(structures);
-            std::vector<DerivedStructure> made = run(
+            std::vector<DerivedStructure> derived = run(
                 {progress, stop, threads}, [&](const Work& work) { return derive(texts, named, {.image = image}, work); });
             py::dict by_name;
-            for (DerivedStructure& one : made) {
+            for (DerivedStructure& one : derived) {
                 const py::str name(one.name);  // before the structure is moved from
                 by_name[name] = py::cast(std::move(one));
             }

@@ -107,9 +107,9 @@ mesh : TriangleMesh
 @provenance
 )",
         [](const fs::path& path, const TriangleMesh& mesh, const py::object& provenance) {
-            const Provenance made = provenance_from(provenance);
+            const Provenance entries = provenance_from(provenance);
             const ReleasedLock released;
-            write_mesh(path, mesh, made);
+            write_mesh(path, mesh, entries);
         },
         py::arg("path"), py::arg("mesh"), py::arg("provenance") = py::none());
     define(

@@ -227,10 +227,10 @@ Returns
 PreparedContours
 )",
         [preparing](const ContourSet& contours, const py::kwargs& given) {
-            const Preparing asked = preparing.parse("prepare", given);
+            const Preparing preparation = preparing.parse("prepare", given);
             return unlocked([&] {
-                const Drawing drawing = read_drawing(contours, asked.fill_rule);
-                PreparedContours prepared = prepare(drawing, asked.options);
+                const Drawing drawing = read_drawing(contours, preparation.fill_rule);
+                PreparedContours prepared = prepare(drawing, preparation.options);
                 prepared.notes.insert(prepared.notes.begin(), drawing.notes.begin(), drawing.notes.end());
                 return prepared;
             });

@@ -125,9 +125,9 @@ void bind_results(py::module_& m) {
     type.def_readonly("warnings", &MovingSegmentation::warnings, "list of str: choices made for the user and doubts.");
     type.def_property_readonly(
         "seconds",
-        [](const MovingSegmentation& made) {
+        [](const MovingSegmentation& result) {
             py::dict seconds;
-            for (const auto& [stage, duration] : made.seconds) seconds[py::str(stage)] = duration;
+            for (const auto& [stage, duration] : result.seconds) seconds[py::str(stage)] = duration;
             return seconds;
         },
         "dict of str to float: wall time by stage.");

@@ -121,9 +121,9 @@ UnsupportedError
         [](const fs::path& path, const TriangleMesh& mesh, std::vector<std::string> names,
            const ArrayOf<std::int64_t>& sides, const py::object& provenance) {
             const MeshRegions regions{std::move(names), sides_from(sides)};
-            const Provenance made = provenance_from(provenance);
+            const Provenance entries = provenance_from(provenance);
             const ReleasedLock released;
-            write_region_mesh(path, mesh, regions, made);
+            write_region_mesh(path, mesh, regions, entries);
         },
         py::arg("path"), py::arg("mesh"), py::arg("names"), py::arg("sides"), py::arg("provenance") = py::none());
 }

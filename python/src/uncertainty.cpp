@@ -101,12 +101,12 @@ Examples
 >>> plane.after.value > plane.before.value
 True
 )",
-        [](const Segmentation& made, const ContourSet& contours, std::int64_t count, PlaneChoice among,
+        [](const Segmentation& segmentation, const ContourSet& contours, std::int64_t count, PlaneChoice among,
            const std::optional<Grid>& grid, const std::vector<Plane>& avoid, int threads) {
             if (count < 1)
                 throw Error(ErrorKind::invalid_input, std::to_string(count) + " planes are asked for; at least 1 is needed");
             return unlocked([&] {
-                return suggest_planes(made, contours, static_cast<std::size_t>(count), {among, grid, avoid},
+                return suggest_planes(segmentation, contours, static_cast<std::size_t>(count), {among, grid, avoid},
                                       {.threads = threads})
                     .planes;
             });
@@ -123,7 +123,7 @@ Parameters
 ----------
 segmentation : Segmentation
 contours : ContourSet
-    What it was made from.
+    What it was segmentation from.
 points : array_like, shape (n, 3)
     mm, on the surface: a mesh's, for example.
 threads : int
@@ -142,10 +142,10 @@ Examples
 >>> widths.shape == (len(kidney.mesh.points),)
 True
 )",
-        [](const Segmentation& made, const ContourSet& contours, const ArrayOf<double>& points, int threads) {
+        [](const Segmentation& segmentation, const ContourSet& contours, const ArrayOf<double>& points, int threads) {
             const std::span<const Vec3> rows = points_of(points);
             std::vector<double> widths = unlocked([&] {
-                return half_widths_mm(made, contours, {rows.begin(), rows.end()}, {.threads = threads});
+                return half_widths_mm(segmentation, contours, {rows.begin(), rows.end()}, {.threads = threads});
             });
             const auto count = static_cast<py::ssize_t>(widths.size());
             return owning_array(std::move(widths), {count});
@@ -170,8 +170,8 @@ Returns
 Image
     float32, mm, at the voxels on both sides of the border; 0 elsewhere, and below three different planes everywhere.
 )",
-        [](const Segmentation& made, const ContourSet& contours, int threads) {
-            return unlocked([&] { return uncertainty_map(made, contours, {.threads = threads}); });
+        [](const Segmentation& segmentation, const ContourSet& contours, int threads) {
+            return unlocked([&] { return uncertainty_map(segmentation, contours, {.threads = threads}); });
         },
         py::arg("segmentation"), py::arg("contours"), kThreads);
 }

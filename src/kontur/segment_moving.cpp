@@ -69,21 +69,21 @@ std::string moment_name(const Moments& moments, double time) {
     return moments.in_seconds ? fmt::format("at {:g} s", time) : fmt::format("frame {:g}", time);
 }
 
-std::vector<std::string> warnings_of(const Moments& moments, const std::vector<DrawnMoment>& made) {
+std::vector<std::string> warnings_of(const Moments& moments, const std::vector<DrawnMoment>& fits) {
     std::vector<std::string> warnings;
     std::size_t carried = 0, moments_with = 0;
-    for (const DrawnMoment& moment : made) {
+    for (const DrawnMoment& moment : fits) {
         carried += moment.carried;
         moments_with += moment.carried > 0;
-        if (made.size() == 1) continue;
+        if (fits.size() == 1) continue;
         for (const std::string& warning : moment.segmentation.report.warnings)
             warnings.push_back(moment_name(moments, moment.time) + ": " + warning);
     }
-    if (made.size() == 1) warnings = made.front().segmentation.report.warnings;
+    if (fits.size() == 1) warnings = fits.front().segmentation.report.warnings;
     if (carried > 0)
         warnings.push_back(fmt::format("at {} little was drawn; {} in planes drawn at others follow from those",
                                        counted(moments_with, "moment"), counted(carried, "section")));
-    if (made.size() > 1 && !moments.course.cycle())
+    if (fits.size() > 1 && !moments.course.cycle())
         warnings.push_back("nothing moves before the first and after the last drawn moment; --cycle says when it repeats");
     return warnings;
 }
@@ -154,36 +154,36 @@ MovingFit MovingFitter::fit(const ContourSet& drawn_contours, std::span<const do
     check(drawn_contours, moments, times);
     const ContourSet contours = in_order_of_time(drawn_contours, moments);
     DrawnMoments drawn = drawn_moments(contours, moments);
-    std::vector<DrawnMoment> made(drawn.sets.size());
+    std::vector<DrawnMoment> fits(drawn.sets.size());
     const auto fit_moment = [&](std::size_t k, std::size_t carried) {
-        work.report("segment moments", static_cast<double>(k) / static_cast<double>(made.size()));
+        work.report("segment moments", static_cast<double>(k) / static_cast<double>(fits.size()));
         const double time = moments.course.times()[k];
-        made[k] = fitted(drawn.sets[k], time, drawn.weights[k] == 1, work);
-        made[k].time = time;
-        made[k].carried = carried;
-        made[k].contours = made[k].set.contours.size() - carried;
+        fits[k] = fitted(drawn.sets[k], time, drawn.weights[k] == 1, work);
+        fits[k].time = time;
+        fits[k].carried = carried;
+        fits[k].contours = fits[k].set.contours.size() - carried;
     };
-    for (std::size_t k = 0; k < made.size(); ++k)
+    for (std::size_t k = 0; k < fits.size(); ++k)
         if (drawn.weights[k] > 0) fit_moment(k, 0);
     watch.lap("whole moments");
-    const std::vector<DrawnMoment> alone = made;
+    const std::vector<DrawnMoment> alone = fits;
     const std::vector<std::vector<Contour>> carried =
         carried_sections(contours, drawn, whole_motion(drawn, alone), options_.fill_rule, work);
     watch.lap("carry sections");
-    for (std::size_t k = 0; k < made.size(); ++k) {
+    for (std::size_t k = 0; k < fits.size(); ++k) {
         if (drawn.weights[k] == 1 || (drawn.weights[k] > 0 && carried[k].empty())) continue;
         drawn.sets[k].contours.insert(drawn.sets[k].contours.end(), carried[k].begin(), carried[k].end());
         fit_moment(k, carried[k].size());
     }
     watch.lap("other moments");
-    known_ = made;
-    for (std::size_t k = 0; k < made.size(); ++k)
-        if (made[k].carried > 0 && drawn.weights[k] > 0) known_.push_back(alone[k]);
+    known_ = fits;
+    for (std::size_t k = 0; k < fits.size(); ++k)
+        if (fits[k].carried > 0 && drawn.weights[k] > 0) known_.push_back(alone[k]);
     std::vector<ImplicitFunction> functions;
-    for (const DrawnMoment& moment : made) functions.push_back(moment.segmentation.function);
+    for (const DrawnMoment& moment : fits) functions.push_back(moment.segmentation.function);
     MovingFunction function(moments.course, std::move(functions));
-    std::vector<std::string> warnings = warnings_of(moments, made);
-    return {std::move(function), std::move(made), std::move(warnings), std::move(seconds)};
+    std::vector<std::string> warnings = warnings_of(moments, fits);
+    return {std::move(function), std::move(fits), std::move(warnings), std::move(seconds)};
 }
 
 MovingSegmentation segment_moving(const ContourSet& contours, const FramesToSegment& frames, std::span<const double> times,

@@ -41,7 +41,7 @@ TEST(ExportFits, WhatIsDrawnTheSameIsFittedOnce) {
         EXPECT_EQ(fits.all(two_circles(shares), {}), first) << "other contours of the same points";
         const ExportFits::Fits second = fits.all(with_larger_left(state), {});
         EXPECT_NE(second, first);
-        EXPECT_NE(second->front().made.mask.values, first->front().made.mask.values);
+        EXPECT_NE(second->front().segmentation.mask.values, first->front().segmentation.mask.values);
         EXPECT_EQ(fits.all(state, {}), first) << "after undo";
     }
 }
@@ -75,7 +75,7 @@ TEST(ExportFits, AReviewComesAlongWithoutAnotherFit) {
     const auto again = fits.one(reviewed, 4, {.stop = stop.token()});
     EXPECT_EQ(again->structure, reviewed.structures.at(4));
     EXPECT_EQ(again->set.attributes.review, reviewed.structures.at(4).attributes.review);
-    EXPECT_EQ(again->made.mask.values, first->made.mask.values);
+    EXPECT_EQ(again->segmentation.mask.values, first->segmentation.mask.values);
     EXPECT_FALSE(fits.one(state, 4, {.stop = stop.token()})->set.attributes.review.approved) << "after undo";
     EXPECT_FALSE(first->set.attributes.review.approved) << "others may still read it";
     State smoother = reviewed;

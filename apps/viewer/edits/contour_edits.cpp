@@ -170,16 +170,17 @@ std::optional<DrawnContour> bent(const DrawnContour& contour, const std::functio
         const Vec3 along = n == edge_count(contour) ? Vec3{} : contour.points[(n + 1) % count] - from;
         const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(norm(along) / step_mm)));
         std::vector<Vec3> places;
-        std::vector<std::optional<Vec3>> gone;
+        std::vector<std::optional<Vec3>> targets;
         for (std::size_t step = 0; step <= steps; ++step) {
             places.push_back(from + (static_cast<double>(step) / static_cast<double>(steps)) * along);
-            gone.push_back(goes_to(places.back()));
+            targets.push_back(goes_to(places.back()));
         }
-        line.points.push_back(gone[0].value_or(from));
+        line.points.push_back(targets[0].value_or(from));
         // What stays beside what moves is a point, too: the line leads straight on from there.
         for (std::size_t step = 1; step < steps; ++step)
-            if (gone[step - 1] || gone[step] || gone[step + 1]) line.points.push_back(gone[step].value_or(places[step]));
-        const bool moves = std::any_of(gone.begin(), gone.end(), [](const auto& to) { return to.has_value(); });
+            if (targets[step - 1] || targets[step] || targets[step + 1])
+                line.points.push_back(targets[step].value_or(places[step]));
+        const bool moves = std::any_of(targets.begin(), targets.end(), [](const auto& to) { return to.has_value(); });
         if (moves) line.control[own].kind = Stretch::free;
         any = any || moves;
     }

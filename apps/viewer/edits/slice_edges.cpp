@@ -70,10 +70,10 @@ struct SliceEdges::Slice {
 SliceEdges::SliceEdges(std::shared_ptr<const Image> image) : images_{{0, std::move(image)}} {}
 SliceEdges::~SliceEdges() = default;
 
-void SliceEdges::set_further(int image, std::shared_ptr<const Image> shown) {
+void SliceEdges::set_further(int image, std::shared_ptr<const Image> further) {
     const std::scoped_lock lock(mutex_);
     std::erase_if(slices_, [&](const Slice& slice) { return slice.number == image; });
-    if (shown) images_[image] = std::move(shown);
+    if (further) images_[image] = std::move(further);
     else images_.erase(image);
 }
 

@@ -23,7 +23,7 @@ public:
     ~SliceEdges();
 
     /// A further image, in place of one that has this number; null: there is none any more. `image` is at least 1.
-    void set_further(int image, std::shared_ptr<const Image> shown);
+    void set_further(int image, std::shared_ptr<const Image> further);
 
     /// Along the edges of the plane's slice, from `from` (included) to `to` (left out), in mm on the plane.
     std::vector<Vec3> path(const Plane& plane, const Vec3& from, const Vec3& to, int image = 0);

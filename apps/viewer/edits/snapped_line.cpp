@@ -205,18 +205,18 @@ std::vector<Vec3> snapped_line(const LineInPlane& expected_line, const LineInPla
             double off = 0;
             for (std::size_t t = 0; t < wanted.size(); ++t)
                 off += std::min(std::abs(seen[m + t] - wanted[t]) / contrast, 2.0);
-            const double moved = (static_cast<double>(m) - reach) / reach;
-            costs[i][m] = off / static_cast<double>(wanted.size()) + options.stay * moved * moved;
+            const double shift = (static_cast<double>(m) - reach) / reach;
+            costs[i][m] = off / static_cast<double>(wanted.size()) + options.stay * shift * shift;
         }
     }
     const std::vector<int> chosen = cheapest(averaged(costs, 3), options.stiffness * kStepPixels * kStepPixels);
     std::vector<Vec3> result;
     for (std::size_t i = 0; i < count; ++i) {
-        double moved = 0;
-        for (std::size_t k = count - 2; k <= count + 2; ++k) moved += chosen[(i + k) % count] - reach;
-        moved *= step_mm / 5;
+        double shift = 0;
+        for (std::size_t k = count - 2; k <= count + 2; ++k) shift += chosen[(i + k) % count] - reach;
+        shift *= step_mm / 5;
         result.push_back(
-            plane.from_uv(places[i].at[0] + moved * places[i].out[0], places[i].at[1] + moved * places[i].out[1]));
+            plane.from_uv(places[i].at[0] + shift * places[i].out[0], places[i].at[1] + shift * places[i].out[1]));
     }
     return result;
 }

@@ -92,11 +92,11 @@ State at_opened_time_alone(const State& state) {
 std::size_t bytes_of(const ExportFits::Fits& fits) {
     std::size_t bytes = 0;
     for (const FittedStructure& one : *fits) {
-        bytes += one.made.mask.values.size();
+        bytes += one.segmentation.mask.values.size();
         if (one.corrected) bytes += 2 * one.corrected->origin.size();
-        if (one.made.mesh)
-            bytes += one.made.mesh->points.size() * sizeof(Vec3) +
-                     one.made.mesh->triangles.size() * sizeof(one.made.mesh->triangles.front());
+        if (one.segmentation.mesh)
+            bytes += one.segmentation.mesh->points.size() * sizeof(Vec3) +
+                     one.segmentation.mesh->triangles.size() * sizeof(one.segmentation.mesh->triangles.front());
     }
     return bytes;
 }
@@ -107,7 +107,7 @@ ExportFits::Fits ExportFits::all(const State& state, const Work& work, const Fit
     const State own = at_opened_time_alone(state);
     if (own.contours.size() == state.contours.size()) return at_opened_time(state, wish.mesh, work);
     std::vector<FittedStructure> all;
-    if (!drawn_in(own).empty() || !all_members(own).made.empty()) all = *at_opened_time(own, wish.mesh, work);
+    if (!drawn_in(own).empty() || !all_members(own).derived.empty()) all = *at_opened_time(own, wish.mesh, work);
     for (const Id id : drawn_in(state))
         if (!is_of_opened_time(state, id)) all.push_back(in_time(state, id, wish, work));
     std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
@@ -121,9 +121,9 @@ FittedStructure ExportFits::in_time(const State& state, Id structure, const FitW
         return moving;
     }
     const std::shared_ptr<const Image> image = image_at_(*drawn_times(state, structure).begin());
-    FittedStructure made = fit_structure(only(state, structure), structure, *image, wish.mesh, work);
-    made.shares_border = false;
-    return made;
+    FittedStructure fit = fit_structure(only(state, structure), structure, *image, wish.mesh, work);
+    fit.shares_border = false;
+    return fit;
 }
 
 std::shared_ptr<const FittedMotion> ExportFits::motion(const State& state, Id structure, const Work& work) {
@@ -134,16 +134,16 @@ std::shared_ptr<const FittedMotion> ExportFits::motion(const State& state, Id st
     }
     FramesToSegment frames(image_->grid);
     if (own.use_image) frames.image_at = [this](double frame) { return image_at_(static_cast<int>(frame) - 1); };
-    auto made = std::make_shared<const FittedMotion>(own, structure, frames, times_, work);
+    auto motion = std::make_shared<const FittedMotion>(own, structure, frames, times_, work);
     const std::scoped_lock lock(mutex_);
     motion_of_ = own;
-    motion_ = made;
-    return made;
+    motion_ = motion;
+    return motion;
 }
 
 ExportFits::Fits ExportFits::at_opened_time(const State& state, bool mesh, const Work& work) {
     const RuleMembers derived = all_members(state);
-    if (derived.made.empty()) return drawn_at_opened_time(without_rules(state), mesh, work);
+    if (derived.derived.empty()) return drawn_at_opened_time(without_rules(state), mesh, work);
     return kept(state, mesh, [&] {
         std::vector<FittedStructure> all;
         if (!drawn_in(state).empty()) all = *drawn_at_opened_time(without_rules(state), mesh, work);
@@ -156,8 +156,8 @@ ExportFits::Fits ExportFits::at_opened_time(const State& state, bool mesh, const
 
 ExportFits::Fits ExportFits::drawn_at_opened_time(const State& state, bool mesh, const Work& work) {
     const std::set<Id> drawn = drawn_in(state);
-    const State asked = drawn.size() == 1 ? only(state, *drawn.begin()) : state;
-    return kept(asked, mesh, [&] { return fit_structures(asked, *image_, mesh, work); });
+    const State part = drawn.size() == 1 ? only(state, *drawn.begin()) : state;
+    return kept(part, mesh, [&] { return fit_structures(part, *image_, mesh, work); });
 }
 
 FindBody ExportFits::find_body(const Work& work) const {
@@ -171,7 +171,7 @@ std::shared_ptr<const FittedStructure> ExportFits::derived(const State& state, I
             throw Error(ErrorKind::invalid_input,
                         fmt::format("{}: {} has 0 contours; at least 1 is needed", members.rules.front(), name));
     State own = state.borders.shared ? state : only(state, members.drawn);
-    for (const Id id : members.made) own.structures[id] = structure_of(state, id);
+    for (const Id id : members.derived) own.structures[id] = structure_of(state, id);
     const Fits fits = at_opened_time(own, mesh, work);
     return {fits, &*std::ranges::find(*fits, structure, [](const FittedStructure& one) { return one.structure.id; })};
 }
@@ -210,13 +210,13 @@ ExportFits::Fits ExportFits::kept(const State& state, bool mesh, const std::func
             return known->fits;
         }
     }
-    const Fits made = std::make_shared<const std::vector<FittedStructure>>(fit());
+    const Fits fits = std::make_shared<const std::vector<FittedStructure>>(fit());
     const std::scoped_lock lock(mutex_);
-    kept_.push_front({state, mesh, made});
+    kept_.push_front({state, mesh, fits});
     std::size_t bytes = 0, count = 0;
     std::erase_if(kept_,
                   [&](const FitsOfState& one) { return (bytes += bytes_of(one.fits)) > kMostBytes || ++count > kMostKept; });
-    return made;
+    return fits;
 }
 
 }  // namespace kontur::viewer

@@ -28,11 +28,11 @@ FittedMotion::FittedMotion(const State& state, Id structure, const FramesToSegme
 FittedStructure FittedMotion::at(int time) const {
     FittedStructure one{structure_, set_, {}, true, {}};
     const double frame = frames_.at(static_cast<std::size_t>(time));
-    one.made.mask = masks_->at(frame);
-    one.made.mesh = meshes_->at(frame);
-    one.made.report = moments_.front().segmentation.report;
-    one.made.report.mask_volume_ml = volume_ml(one.made.mask);
-    one.made.report.uncertainty = {};  // that of one moment tells nothing of others
+    one.segmentation.mask = masks_->at(frame);
+    one.segmentation.mesh = meshes_->at(frame);
+    one.segmentation.report = moments_.front().segmentation.report;
+    one.segmentation.report.mask_volume_ml = volume_ml(one.segmentation.mask);
+    one.segmentation.report.uncertainty = {};  // that of one moment tells nothing of others
     return one;
 }
 

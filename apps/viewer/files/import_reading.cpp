@@ -117,11 +117,11 @@ struct MaskOrigin {
 
 TracedMask preview_of(const Mask& mask, const ContourSet& set) {
     const double voxel_ml = mask.grid.voxel_volume_mm3() / 1000;
-    const Mask made = segment(set, mask.grid, {.drawn_on = mask.grid}).mask;
+    const Mask refitted = segment(set, mask.grid, {.drawn_on = mask.grid}).mask;
     const auto count = [](const Mask& one) { return static_cast<double>(std::ranges::count(one.values, 1)); };
     double both = 0;
-    for (std::size_t n = 0; n < mask.values.size(); ++n) both += mask.values[n] == 1 && made.values[n] == 1;
-    const double own = count(mask), again = count(made);
+    for (std::size_t n = 0; n < mask.values.size(); ++n) both += mask.values[n] == 1 && refitted.values[n] == 1;
+    const double own = count(mask), again = count(refitted);
     return {set.name, own * voxel_ml, again * voxel_ml, 2 * both / (own + again)};
 }
 

@@ -39,7 +39,7 @@ std::int64_t voxels_of(const Mask& mask) { return std::accumulate(mask.values.be
 /// From the largest to the smallest, by place in the list.
 std::vector<std::size_t> by_size(const All& all) {
     std::vector<std::int64_t> voxels;
-    for (const FittedStructure& one : all) voxels.push_back(voxels_of(one.made.mask));
+    for (const FittedStructure& one : all) voxels.push_back(voxels_of(one.segmentation.mask));
     std::vector<std::size_t> order(all.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return voxels[a] > voxels[b]; });
@@ -61,7 +61,7 @@ std::vector<std::int64_t> places_of(const All& all) {
 
 /// How the structures were made; what differs has the label's number behind its name.
 Provenance together(const All& all, const std::vector<std::int64_t>& numbers) {
-    Provenance made;
+    Provenance provenance;
     for (std::size_t n = 0; n < all.size(); ++n)
         for (const auto& [name, value] : provenance_of(all[n])) {
             const std::pair entry{name, value};
@@ -69,18 +69,18 @@ Provenance together(const All& all, const std::vector<std::int64_t>& numbers) {
                     const Provenance its = provenance_of(one);
                     return std::find(its.begin(), its.end(), entry) != its.end();
                 }))
-                made.push_back(entry);
-            else if (std::find(made.begin(), made.end(), entry) == made.end())
-                made.emplace_back(fmt::format("{}_{}", name, numbers[n]), value);
+                provenance.push_back(entry);
+            else if (std::find(provenance.begin(), provenance.end(), entry) == provenance.end())
+                provenance.emplace_back(fmt::format("{}_{}", name, numbers[n]), value);
         }
-    return made;
+    return provenance;
 }
 
 std::vector<std::string> write_labels(const fs::path& path, const All& all) {
-    std::vector<std::uint16_t> labels(all.front().made.mask.values.size());  // places in the list, from 1
-    std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared;      // of the larger and the smaller structure
+    std::vector<std::uint16_t> labels(all.front().segmentation.mask.values.size());  // places in the list, from 1
+    std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared;  // of the larger and the smaller structure
     for (const std::size_t n : by_size(all)) {
-        const std::vector<std::uint8_t>& inside = all[n].made.mask.values;
+        const std::vector<std::uint8_t>& inside = all[n].segmentation.mask.values;
         for (std::size_t v = 0; v < labels.size(); ++v) {
             if (inside[v] == 0) continue;
             if (labels[v] != 0) ++shared[{labels[v] - 1u, n}];
@@ -94,7 +94,7 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
     options.provenance = together(all, values);
     for (std::size_t n = 0; n < all.size(); ++n)
         options.names.push_back({values[n], all[n].structure.name, rgb(all[n].structure.color)});
-    Image image{all.front().made.mask.grid, labels};
+    Image image{all.front().segmentation.mask.grid, labels};
     if (std::ranges::max(values) <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
     write_image(path, image, options);
     std::vector<std::string> notes;
@@ -112,7 +112,7 @@ void write_layers(const fs::path& path, const All& all) {
     std::vector<NrrdSegment> segments;
     const std::vector<std::int64_t> values = label_values_of(all);
     for (const FittedStructure& one : all) {
-        masks.push_back(one.made.mask);
+        masks.push_back(one.segmentation.mask);
         segments.push_back(
             {.name = one.structure.name, .color = rgb(one.structure.color), .label_value = values[segments.size()]});
         segments.back().tags = tags_of_terms(one.set.attributes);
@@ -139,7 +139,7 @@ std::vector<std::string> write_seg(const fs::path& path, const All& all, const D
     std::vector<Mask> masks;
     std::vector<DicomSegment> segments;
     for (const FittedStructure& one : all) {
-        masks.push_back(one.made.mask);
+        masks.push_back(one.segmentation.mask);
         segments.push_back((one.is_derived ? derived_segment : fitted_segment)(one.set.attributes));
         segments.back().number = static_cast<std::int64_t>(segments.size());
         segments.back().label = one.structure.name;
@@ -163,8 +163,9 @@ std::vector<std::string> write_regions(const fs::path& path, const All& all, con
             else set.rois.push_back(std::move(roi));
             continue;
         }
-        roi.contours = one.shares_border || one.corrected ? slice_outlines(one.made.mask)
-                                                          : slice_contours(one.made.mask, one.made.function, work);
+        roi.contours = one.shares_border || one.corrected
+                           ? slice_outlines(one.segmentation.mask)
+                           : slice_contours(one.segmentation.mask, one.segmentation.function, work);
         roi.contours.name = one.structure.name;
         roi.contours.attributes = fitted_attributes(one.set.attributes);
         roi.contours.attributes.review = one.set.attributes.review;  // of what is seen in the page, and written here
@@ -189,7 +190,7 @@ void write_meshes(const fs::path& path, std::string_view name, const All& all) {
         for (int number = 2; is_taken(stem + ending); ++number)
             stem = fmt::format("{}_{}", plain_name(one.structure.name), number);
         const fs::path file = folder.path() / (stem + ending);
-        write_mesh(file, *one.made.mesh, provenance_of(one));
+        write_mesh(file, *one.segmentation.mesh, provenance_of(one));
         entries.push_back({stem + ending, read_bytes(file)});
     }
     write_file_atomically(path, zip(entries));
@@ -206,20 +207,21 @@ const DicomSeries& series_of(const std::optional<DicomSeries>& images, std::stri
 void share_surfaces(std::vector<FittedStructure>& all, const std::vector<StructurePair>& pairs, const Work& work) {
     std::vector<LoneSurface> alone;
     for (const FittedStructure& one : all)
-        if (!one.made.mesh->triangles.empty())
-            alone.push_back({one.structure.id, std::make_shared<const ContourSet>(one.set), one.made.function,
-                             std::make_shared<const TriangleMesh>(*one.made.mesh)});
+        if (!one.segmentation.mesh->triangles.empty())
+            alone.push_back({one.structure.id, std::make_shared<const ContourSet>(one.set), one.segmentation.function,
+                             std::make_shared<const TriangleMesh>(*one.segmentation.mesh)});
     Borders borders{.shared = true};
     for (const StructurePair& pair : pairs)
         if (pair.is_given || pair.relation != Relation::inside)
             borders.set({all[pair.first].structure.id, all[pair.second].structure.id, pair.relation});
     const SharedBorders found = BorderSharing().share(alone, borders, work);
     for (FittedStructure& one : all)
-        if (const auto mesh = found.meshes.find(one.structure.id); mesh != found.meshes.end()) one.made.mesh = *mesh->second;
+        if (const auto mesh = found.meshes.find(one.structure.id); mesh != found.meshes.end())
+            one.segmentation.mesh = *mesh->second;
 }
 
 /// Null where the image is not to be asked.
-const Image* asked(const State& state, const Image& image) { return state.use_image ? &image : nullptr; }
+const Image* image_to_use(const State& state, const Image& image) { return state.use_image ? &image : nullptr; }
 
 /// Whether `segment` makes a mask of the contours on this grid.
 bool reaches_into(const Grid& grid, const ContourSet& set) {
@@ -243,13 +245,13 @@ FittedStructure corrected(const State& state, const Structure& structure, const 
     FittedStructure one{structure, contour_set(state, structure.id), {}, false, {}};
     try {
         const Mask before = mask_of(state, structure)->mask();
-        const Image* shown = asked(state, target.image);
-        if (shown && is_label_map(*shown)) shown = nullptr;
-        one.corrected = std::make_shared<const CorrectedMask>(correct({before, ExistingSurface(before, work), shown},
+        const Image* image = image_to_use(state, target.image);
+        if (image && is_label_map(*image)) image = nullptr;
+        one.corrected = std::make_shared<const CorrectedMask>(correct({before, ExistingSurface(before, work), image},
                                                                       corrections_of(one.set, *structure.mask),
                                                                       correct_options(*structure.mask), work));
-        one.made.mask = on_grid(one.corrected->mask, target.grid, work);
-        if (target.mesh) one.made.mesh = mesh_of(one.corrected->mask, work);
+        one.segmentation.mask = on_grid(one.corrected->mask, target.grid, work);
+        if (target.mesh) one.segmentation.mesh = mesh_of(one.corrected->mask, work);
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
     }
@@ -281,11 +283,11 @@ std::vector<FittedStructure> fit_together(const State& state, const Image& image
     options.segment.drawn_on = image.grid;
     for (const FittedStructure& one : all) options.smoothing.push_back(one.structure.smoothing);
     options.rules = rules_among(state.borders, ids);
-    Together together = segment_together(sets, grid, asked(state, image), options, work);
+    Together together = segment_together(sets, grid, image_to_use(state, image), options, work);
     for (std::size_t n = 0; n < all.size(); ++n) {
         Mask whole = whole_mask(together, n);
-        all[n].made = std::move(together.structures[n]);
-        all[n].made.mask = std::move(whole);
+        all[n].segmentation = std::move(together.structures[n]);
+        all[n].segmentation.mask = std::move(whole);
     }
     for (const StructurePair& pair : together.pairs)
         if (pair.relation == Relation::exclusive || (pair.relation == Relation::inside && pair.is_given))
@@ -302,8 +304,8 @@ std::vector<FittedStructure> fit_each(const State& state, const Image& image, co
         if (set.contours.empty() || structure.mask) continue;
         const SegmentOptions options{.smoothing = structure.smoothing, .mesh = with_mesh, .drawn_on = image.grid};
         try {
-            Segmentation made = segment(set, grid, asked(state, image), options, work);
-            all.push_back({structure, std::move(set), std::move(made)});
+            Segmentation segmentation = segment(set, grid, image_to_use(state, image), options, work);
+            all.push_back({structure, std::move(set), std::move(segmentation)});
         } catch (const Error& error) {
             throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
         }
@@ -327,7 +329,7 @@ std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& st
             std::erase_if(within.contours, [&](const auto& item) { return item.second->structure == found.first; });
     auto all = (state.borders.shared ? fit_together : fit_each)(within, image, grid, false, work);
     add_corrected(all, state, {image, grid, false}, work);
-    std::erase_if(all, [](const FittedStructure& one) { return one.corrected && voxels_of(one.made.mask) == 0; });
+    std::erase_if(all, [](const FittedStructure& one) { return one.corrected && voxels_of(one.segmentation.mask) == 0; });
     return all;
 }
 
@@ -340,8 +342,8 @@ FittedStructure fit_structure(const State& state, Id structure, const Image& ima
     if (!state.borders.shared || is_alone || set.contours.empty()) {
         const SegmentOptions options{
             .smoothing = structure_of(state, structure).smoothing, .mesh = with_mesh, .drawn_on = image.grid};
-        Segmentation made = segment(set, image.grid, asked(state, image), options, work);
-        return {structure_of(state, structure), std::move(set), std::move(made)};
+        Segmentation segmentation = segment(set, image.grid, image_to_use(state, image), options, work);
+        return {structure_of(state, structure), std::move(set), std::move(segmentation)};
     }
     std::vector<FittedStructure> all = fit_structures(state, image, with_mesh, work);
     const auto chosen =
@@ -352,7 +354,7 @@ FittedStructure fit_structure(const State& state, Id structure, const Image& ima
 Provenance provenance_of(const FittedStructure& one) {
     if (one.is_derived)
         return {{"rule", *one.structure.rule}, {"outlines_sha256", contours_sha256(one.set)}, {"version", KONTUR_VERSION}};
-    if (!one.corrected) return provenance(one.set, one.made.mask.grid, one.made.report);
+    if (!one.corrected) return provenance(one.set, one.segmentation.mask.grid, one.segmentation.report);
     const StructureMask& mask = *one.structure.mask;
     return {{"mask_sha256", mask.hash},
             {"contours_sha256", contours_sha256(one.set)},

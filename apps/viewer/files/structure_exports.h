@@ -29,7 +29,7 @@ bool is_export_of_all(std::string_view name);
 struct FittedStructure {
     Structure structure;
     ContourSet set;
-    Segmentation made;
+    Segmentation segmentation;
     bool shares_border = false;  ///< mask and mesh are not those that the function alone would give
     std::shared_ptr<const CorrectedMask>
         corrected{};          ///< of a mask to be corrected, on its own grid; `made` has no function

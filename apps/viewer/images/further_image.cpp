@@ -65,16 +65,16 @@ Window emission_window(const Image& image, const std::string& unit) {
 
 FurtherImage further_image(OpenedImage opened) {
     const Image& image = *opened.image;
-    FurtherImage shown;
-    shown.mm_to_index = image.grid.index_to_mm.inverse();
-    shown.unit = unit_of(opened.identity, image);
-    shown.range = value_range(image);
+    FurtherImage further;
+    further.mm_to_index = image.grid.index_to_mm.inverse();
+    further.unit = unit_of(opened.identity, image);
+    further.range = value_range(image);
     const bool is_counted = is_emission(opened.identity);
-    shown.window = is_counted ? emission_window(image, shown.unit) : suggest_window(image);
-    shown.presets = is_counted ? emission_presets(image, shown.unit) : window_presets(image);
-    shown.times = std::make_shared<TimeAxis>(opened.image, opened.times);
-    shown.opened = std::move(opened);
-    return shown;
+    further.window = is_counted ? emission_window(image, further.unit) : suggest_window(image);
+    further.presets = is_counted ? emission_presets(image, further.unit) : window_presets(image);
+    further.times = std::make_shared<TimeAxis>(opened.image, opened.times);
+    further.opened = std::move(opened);
+    return further;
 }
 
 json to_json(const DicomIdentity& identity) {
@@ -95,22 +95,22 @@ json to_json(const std::vector<WindowPreset>& presets) {
     return array;
 }
 
-json to_json(const FurtherImage& shown, int number) {
-    const Grid& grid = shown.opened.image->grid;
+json to_json(const FurtherImage& further, int number) {
+    const Grid& grid = further.opened.image->grid;
     return {{"image", number},
-            {"key", shown.opened.reference.fingerprint},
-            {"title", shown.opened.title},
+            {"key", further.opened.reference.fingerprint},
+            {"title", further.opened.title},
             {"size", {grid.size.i, grid.size.j, grid.size.k}},
             {"spacing_mm", to_json(grid.spacing_mm())},
-            {"unit", shown.unit},
-            {"times", shown.times->count()},
-            {"time", shown.times->own()},
-            {"range", {shown.range.first, shown.range.second}},
-            {"notes", shown.opened.notes},
-            {"identity", to_json(shown.opened.identity)},
-            {"emission", is_emission(shown.opened.identity)},
-            {"window", {{"center", shown.window.center}, {"width", shown.window.width}}},
-            {"presets", to_json(shown.presets)}};
+            {"unit", further.unit},
+            {"times", further.times->count()},
+            {"time", further.times->own()},
+            {"range", {further.range.first, further.range.second}},
+            {"notes", further.opened.notes},
+            {"identity", to_json(further.opened.identity)},
+            {"emission", is_emission(further.opened.identity)},
+            {"window", {{"center", further.window.center}, {"width", further.window.width}}},
+            {"presets", to_json(further.presets)}};
 }
 
 }  // namespace kontur::viewer

@@ -45,6 +45,6 @@ Window emission_window(const Image& image, const std::string& unit);
 nlohmann::json to_json(const DicomIdentity& identity);
 nlohmann::json to_json(const std::vector<WindowPreset>& presets);
 /// `number`: of the image among those of the project.
-nlohmann::json to_json(const FurtherImage& shown, int number);
+nlohmann::json to_json(const FurtherImage& further, int number);
 
 }  // namespace kontur::viewer

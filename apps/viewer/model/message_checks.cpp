@@ -23,7 +23,7 @@ std::size_t characters(const std::string& utf8) {
 }
 
 /// Short enough for a sentence.
-std::string shown(const json& value) {
+std::string short_text(const json& value) {
     constexpr std::size_t kMost = 40;
     if (value.is_array()) return fmt::format("a list of {}", value.size());
     if (value.is_object()) return "an object";
@@ -82,7 +82,7 @@ bool fits(const json& value, const Type& type) {
 }
 
 void check(const json& value, const Type& type, const JsonPlace& place) {
-    if (!fits(value, type)) refuse(fmt::format("'{}' is {}; {} is needed", place.text(), shown(value), type.needed));
+    if (!fits(value, type)) refuse(fmt::format("'{}' is {}; {} is needed", place.text(), short_text(value), type.needed));
     for (const auto& [name, member, is_needed] : type.members) {
         const JsonPlace inside{&place, name};
         if (const auto found = value.find(name); found != value.end()) check(*found, *member, inside);

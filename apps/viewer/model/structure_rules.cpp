@@ -46,9 +46,9 @@ void check_frame(const State& state, const Structure& structure, const std::stri
 }  // namespace
 
 void RuleMembers::add(const RuleMembers& others) {
-    for (std::size_t n = 0; n < others.made.size(); ++n)
-        if (std::ranges::count(made, others.made[n]) == 0) {
-            made.push_back(others.made[n]);
+    for (std::size_t n = 0; n < others.derived.size(); ++n)
+        if (std::ranges::count(derived, others.derived[n]) == 0) {
+            derived.push_back(others.derived[n]);
             rules.push_back(others.rules[n]);
         }
     drawn.insert(others.drawn.begin(), others.drawn.end());
@@ -64,8 +64,8 @@ RuleMembers members_of(const State& state, Id structure) {
             if (!source.rule) {
                 check_frame(state, source, rule);
                 members.drawn[name] = source.id;
-            } else if (std::ranges::count(members.made, source.id) == 0) {
-                members.made.push_back(source.id);
+            } else if (std::ranges::count(members.derived, source.id) == 0) {
+                members.derived.push_back(source.id);
                 members.rules.push_back(*source.rule);
             }
         }

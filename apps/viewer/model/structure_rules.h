@@ -13,7 +13,7 @@ namespace kontur::viewer {
 
 /// What takes part in making a structure.
 struct RuleMembers {
-    std::vector<Id> made;               ///< it, and what its rule needs and other rules make
+    std::vector<Id> derived;            ///< it, and what its rule needs and other rules make
     std::vector<std::string> rules;     ///< that make these, in the same order
     std::map<std::string, Id> drawn{};  ///< what is needed besides, by name
 

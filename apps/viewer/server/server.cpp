@@ -388,8 +388,8 @@ private:
 
     asio::awaitable<HttpReply> work() {
         Request request = parser_->release();
-        HttpRequest asked{text(request.method_string()), target_, std::move(request.body()), opening_};
-        const auto make = core_.api.prepare(std::move(asked));
+        HttpRequest http_request{text(request.method_string()), target_, std::move(request.body()), opening_};
+        const auto make = core_.api.prepare(std::move(http_request));
         StopSource stop;
         asio::co_spawn(core_.io, watch(shared_from_this(), stop), asio::detached);
         const auto run = [&] {

@@ -77,8 +77,8 @@ std::vector<DrawnContour> carried_with(SessionState& s, const DrawnContour& cont
             continue;
         if (!lies_in(*other, old.plane, slice_step_mm(s.image.voxels->grid, old.plane.normal))) continue;
         if (other->time != contour.time || !exclude(s, contour.structure, other->structure)) continue;
-        if (auto moved = carried_along(*other, old, contour, near_mm, *s.edges_of(*other)))
-            carried.push_back(std::move(*moved));
+        if (auto line = carried_along(*other, old, contour, near_mm, *s.edges_of(*other)))
+            carried.push_back(std::move(*line));
     }
     return carried;
 }

@@ -48,7 +48,7 @@ std::string comparison_reply(SessionState& s, const Compared& compared, const St
     const StatusLine line(s.pages.status_teller(), fmt::format("Comparing {} and {}", a.name, b.name));
     const auto fitted = [&, &at = time](Id id) { return s.fits.one(now, id, line.work(stop), {at, false}); };
     const auto fit_a = fitted(first), fit_b = fitted(second);
-    const Comparison found = kontur::compare(fit_a->made.mask, fit_b->made.mask, line.work(stop));
+    const Comparison found = kontur::compare(fit_a->segmentation.mask, fit_b->segmentation.mask, line.work(stop));
     nlohmann::json reply{{"first", first},
                          {"second", second},
                          {"dice", found.dice},
@@ -62,7 +62,7 @@ std::string comparison_reply(SessionState& s, const Compared& compared, const St
         reply["percentile_95_mm"] = found.surface->hausdorff95_mm;
         reply["largest_mm"] = found.surface->hausdorff_mm;
     }
-    reply["differences"] = to_json(differences(fit_a->made.mask, fit_b->made.mask, {}, line.work(stop)));
+    reply["differences"] = to_json(differences(fit_a->segmentation.mask, fit_b->segmentation.mask, {}, line.work(stop)));
     return to_text(reply);
 }
 

@@ -10,11 +10,11 @@ constexpr std::size_t kMostTimes = 3;
 
 }  // namespace
 
-void EdgesInTime::set_further(int image, const std::shared_ptr<const Image>& shown) {
+void EdgesInTime::set_further(int image, const std::shared_ptr<const Image>& further) {
     const std::scoped_lock lock(mutex_);
-    if (shown) further_[image] = shown;
+    if (further) further_[image] = further;
     else further_.erase(image);
-    for (auto& [time, edges] : kept_) edges->set_further(image, shown);
+    for (auto& [time, edges] : kept_) edges->set_further(image, further);
 }
 
 std::shared_ptr<SliceEdges> EdgesInTime::at(int time) {
@@ -26,7 +26,7 @@ std::shared_ptr<SliceEdges> EdgesInTime::at(int time) {
         return known->second;
     }
     kept_.emplace_front(time, std::make_shared<SliceEdges>(image));
-    for (const auto& [number, shown] : further_) kept_.front().second->set_further(number, shown);
+    for (const auto& [number, further] : further_) kept_.front().second->set_further(number, further);
     if (kept_.size() > kMostTimes) kept_.pop_back();
     return kept_.front().second;
 }

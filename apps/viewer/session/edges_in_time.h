@@ -18,7 +18,7 @@ public:
     explicit EdgesInTime(TimeAxis& times) : times_(times) {}
 
     /// As SliceEdges::set_further, at all times.
-    void set_further(int image, const std::shared_ptr<const Image>& shown);
+    void set_further(int image, const std::shared_ptr<const Image>& further);
     /// Throws as TimeAxis::image.
     std::shared_ptr<SliceEdges> at(int time);
 

@@ -37,7 +37,7 @@ std::shared_ptr<const Image> image_for_fits_at(SessionState& s, int time);
 /// 0: the project's own. Null: it is not there. Throws Error(invalid_input) for a number that none can have.
 std::shared_ptr<const Image> image_numbered(SessionState& s, int number, std::optional<int> time);
 /// Shows it beside the project's own image, in place of the one that was; null: none.
-void show_second_image(SessionState& s, std::shared_ptr<const FurtherImage> shown);
+void show_second_image(SessionState& s, std::shared_ptr<const FurtherImage> second);
 /// Neighbours' contours in the plane of a changed contour, where their lines ran along its old one.
 std::vector<DrawnContour> carried_with(SessionState& s, const DrawnContour& contour);
 

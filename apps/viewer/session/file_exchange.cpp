@@ -77,30 +77,30 @@ void write_mask_file(const fs::path& path, const FittedStructure& one) {
     options.segment_color = rgb(one.structure.color);
     options.segment_tags = tags_of_terms(one.set.attributes);
     options.provenance = provenance_of(one);
-    write_mask(path, one.corrected ? one.corrected->mask : one.made.mask, options);
+    write_mask(path, one.corrected ? one.corrected->mask : one.segmentation.mask, options);
 }
 
 void write_mesh_file(const fs::path& path, const FittedStructure& one) {
-    write_mesh(path, *one.made.mesh, provenance_of(one));
+    write_mesh(path, *one.segmentation.mesh, provenance_of(one));
 }
 
 /// With the contours of the time, where they are of several.
 void write_picture(const fs::path& path, const FittedStructure& one, const Image& image, int time) {
-    const Segmentation& made = one.made;
+    const Segmentation& segmentation = one.segmentation;
     PictureOptions options;
     if (one.corrected)
         options.facts = {{"Volume (mask)", in_ml(one.corrected->report.volume_ml)},
                          {"Volume before", in_ml(one.corrected->report.volume_before_ml)},
                          {"Planes corrected", fmt::format("{}", one.corrected->report.planes.size())}};
     else if (one.is_derived)
-        options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)}, {"Rule", *one.structure.rule}};
+        options.facts = {{"Volume (mask)", in_ml(segmentation.report.mask_volume_ml)}, {"Rule", *one.structure.rule}};
     else
-        options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)},
-                         {"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
-                         {"Residual (rms)", fmt::format("{:.2g} mm", made.report.residual.rms_mm)}};
+        options.facts = {{"Volume (mask)", in_ml(segmentation.report.mask_volume_ml)},
+                         {"Residual (max)", fmt::format("{:.2g} mm", segmentation.report.residual.max_mm)},
+                         {"Residual (rms)", fmt::format("{:.2g} mm", segmentation.report.residual.rms_mm)}};
     ContourSet drawn = one.set;
     std::erase_if(drawn.contours, [&](const Contour& contour) { return contour.frame && *contour.frame != time + 1; });
-    write_png(path, make_picture(*made.mesh, drawn, &image, options), provenance_of(one));
+    write_png(path, make_picture(*segmentation.mesh, drawn, &image, options), provenance_of(one));
 }
 
 /// That a picture of the structure shows: of one that moves the one that is looked at.
@@ -222,15 +222,15 @@ void write_one(SessionState& s, const State& now, const ExportChoice& choice, co
     const std::string& name = choice.name;
     const Structure& chosen = structure_of(now, *choice.structure);
     const bool mesh = is_one_of(name, kMeshes) || name == "picture.png";
-    const auto made = [&] { return s.fits.one(now, chosen.id, work, {choice.time, mesh}); };
-    const ContourSet set = chosen.rule ? made()->set : contours_in_time(now, chosen.id);
+    const auto fitted = [&] { return s.fits.one(now, chosen.id, work, {choice.time, mesh}); };
+    const ContourSet set = chosen.rule ? fitted()->set : contours_in_time(now, chosen.id);
     const ImageReference image = [&] {
         const std::scoped_lock lock(s.mutex);
         return s.project.image();
     }();
     if (name == kMasksOfAll || name == kVolumes) return write_motion(s, now, choice, path, work);
-    if (is_one_of(name, kMasks)) return write_mask_file(path, *made());
-    if (is_one_of(name, kMeshes)) return write_mesh_file(path, *made());
+    if (is_one_of(name, kMasks)) return write_mask_file(path, *fitted());
+    if (is_one_of(name, kMeshes)) return write_mesh_file(path, *fitted());
     if (chosen.mask && name == "contours.json")
         return write_corrections_json(path, set, chosen.mask->confirmed_planes, provenance_of_drawing(set, image));
     if (name == "contours.mrk.json" && is_moving(now, chosen.id))
@@ -238,10 +238,10 @@ void write_one(SessionState& s, const State& now, const ExportChoice& choice, co
                                                         "contours.json",
                                                         name, chosen.name));
     if (is_one_of(name, kContours))
-        return write_contours(path, set, chosen.rule ? provenance_of(*made()) : provenance_of_drawing(set, image));
+        return write_contours(path, set, chosen.rule ? provenance_of(*fitted()) : provenance_of_drawing(set, image));
     if (name != "picture.png") throw Error(ErrorKind::unsupported, "there is no export of this name");
     const int time = picture_time(now, chosen.id, choice.time);
-    write_picture(path, *made(), *s.image.times.image(time), time);
+    write_picture(path, *fitted(), *s.image.times.image(time), time);
 }
 
 }  // namespace

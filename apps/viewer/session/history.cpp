@@ -203,11 +203,11 @@ void tell_changes(SessionState& s, const Commit& step) {
 }
 
 void check_is_drawn(const State& state, Id structure) {
-    const Structure& made = structure_of(state, structure);
-    if (made.rule)
+    const Structure& chosen = structure_of(state, structure);
+    if (chosen.rule)
         throw Error(ErrorKind::invalid_input,
-                    fmt::format("{} is made by the rule {}; change the rule, or freeze {} to draw in it", made.name,
-                                *made.rule, made.name));
+                    fmt::format("{} is made by the rule {}; change the rule, or freeze {} to draw in it", chosen.name,
+                                *chosen.rule, chosen.name));
 }
 
 SurfaceTask surface_task(SessionState& s, Id structure) {
@@ -234,7 +234,7 @@ SurfaceTask surface_task(SessionState& s, Id structure) {
         times.push_back(time_of(state, contour));
     };
     // The draft in its contour's place: what is shown of it is then what will be, to the last bit.
-    const auto shown = [&](Id id, const DrawnContour& stored) -> const DrawnContour& {
+    const auto current = [&](Id id, const DrawnContour& stored) -> const DrawnContour& {
         if (!s.draft) return stored;
         if (s.draft->contour.id == id) return s.draft->contour;
         const std::vector<DrawnContour>& carried = s.draft->carried;
@@ -242,7 +242,7 @@ SurfaceTask surface_task(SessionState& s, Id structure) {
             std::find_if(carried.begin(), carried.end(), [&](const DrawnContour& other) { return other.id == id; });
         return found == carried.end() ? stored : *found;
     };
-    for (const auto& [id, contour] : state.contours) add(shown(id, *contour));
+    for (const auto& [id, contour] : state.contours) add(current(id, *contour));
     if (s.draft && !state.contours.contains(s.draft->contour.id)) add(s.draft->contour);
     if (task.mask || times.empty()) return task;
     if (std::ranges::count(times, times.front()) < std::ssize(times)) turn_into_motion(task, times, s);

@@ -69,7 +69,9 @@ std::string mesh_reply(const SessionState& s, Id structure, bool coded, const Me
         surface.stage = found->second.stage;
         return surface;
     };
-    const auto mesh_of = [&](const Surface& shown) -> const TriangleMesh& { return shown.mesh ? *shown.mesh : no_mesh; };
+    const auto mesh_of = [&](const Surface& surface) -> const TriangleMesh& {
+        return surface.mesh ? *surface.mesh : no_mesh;
+    };
     const Surface surface = surface_of(structure);
     const TriangleMesh& mesh = mesh_of(surface);
     std::vector<double> widths_mm;

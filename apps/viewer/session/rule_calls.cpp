@@ -53,15 +53,15 @@ Structure structure_for(const State& state, const std::string& line) {
 }
 
 /// As the project would be with the rule. Throws RuleError for what is wrong with it.
-State with_rule(State state, const Structure& made) {
-    state.structures[made.id] = made;
-    std::vector<std::string> rules{*made.rule}, names;
+State with_rule(State state, const Structure& structure) {
+    state.structures[structure.id] = structure;
+    std::vector<std::string> rules{*structure.rule}, names;
     for (const auto& [id, one] : state.structures) {
         if (!one.rule) names.push_back(one.name);
-        else if (id != made.id) rules.push_back(*one.rule);
+        else if (id != structure.id) rules.push_back(*one.rule);
     }
     check_rules(rules, names, true);
-    members_of(state, made.id);
+    members_of(state, structure.id);
     return state;
 }
 
@@ -78,9 +78,9 @@ std::size_t characters_before(const std::string& text, std::size_t place) {
 json check(SessionState& s, const Members& m) {
     const std::string line = m.text("line", kMostRuleBytes);
     try {
-        const Structure made = structure_for(s.project.state(), line);
-        with_rule(s.project.state(), made);
-        return {{"name", made.name}, {"is_new", made.id == 0}};
+        const Structure structure = structure_for(s.project.state(), line);
+        with_rule(s.project.state(), structure);
+        return {{"name", structure.name}, {"is_new", structure.id == 0}};
     } catch (const RuleError& error) {
         json problem{{"text", error.sentence()}};
         if (error.rule() == line) problem["at"] = characters_before(line, error.place());
@@ -94,8 +94,8 @@ json check(SessionState& s, const Members& m) {
 json preview(SessionState& s, const Members& m) {
     const std::string line = m.text("line", kMostRuleBytes);
     const State now = s.state();
-    const Structure made = structure_for(now, line);
-    const RuleTask task{members_of(with_rule(now, made), made.id), s.image.voxels};
+    const Structure structure = structure_for(now, line);
+    const RuleTask task{members_of(with_rule(now, structure), structure.id), s.image.voxels};
     Surface surface;
     surface.mesh = std::make_shared<const TriangleMesh>(s.surfaces.preview_of(task));
     json planes = json::array();
@@ -111,21 +111,21 @@ json preview(SessionState& s, const Members& m) {
 json set_rule(SessionState& s, const Members& m) {
     const std::string line = m.text("line", kMostRuleBytes);
     const State& state = s.project.state();
-    Structure made = structure_for(state, line);
-    with_rule(state, made);
+    Structure structure = structure_for(state, line);
+    with_rule(state, structure);
     Change<Structure> change;
-    if (made.id == 0) {
+    if (structure.id == 0) {
         const Id id = s.project.new_id();
-        made = {id, made.name, next_color(state), true};
-        made.rule = line;
+        structure = {id, structure.name, next_color(state), true};
+        structure.rule = line;
     } else {
-        change.before = structure_of(state, made.id);
+        change.before = structure_of(state, structure.id);
     }
-    change.id = made.id;
-    change.after = made;
+    change.id = structure.id;
+    change.after = structure;
     const bool is_change = change.before && change.before->rule;
-    commit(s, {fmt::format("{} {}", is_change ? "Change the rule of" : "Add", made.name), {change}, {}});
-    return {{"structure", to_json(made)}};
+    commit(s, {fmt::format("{} {}", is_change ? "Change the rule of" : "Add", structure.name), {change}, {}});
+    return {{"structure", to_json(structure)}};
 }
 
 /// It becomes a mask, which nothing else changes any more and which can be corrected.
@@ -136,7 +136,7 @@ json freeze(SessionState& s, const Members& m) {
         throw Error(ErrorKind::invalid_input, fmt::format("{} is made by no rule, so nothing moves it", before.name));
     const StatusLine line(s.pages.status_teller(), "Freezing " + before.name);
     const auto fit = s.fits.one(now, before.id, line.work({}), {.mesh = false});
-    const auto mask = std::make_shared<const StoredMask>(fit->made.mask);
+    const auto mask = std::make_shared<const StoredMask>(fit->segmentation.mask);
     Structure after = before;
     after.rule.reset();
     after.mask = StructureMask{.hash = mask->hash(), .source = "kontur derive"};

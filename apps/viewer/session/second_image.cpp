@@ -39,8 +39,8 @@ json value(SessionState& s, const Members& m) {
     json values{value_json(*image, image->grid.index_to_mm.inverse(), at)};
     if (const auto second = s.second.get()) {
         const bool moves = second->times->count() == s.image.times.count() && second->times->own() == s.image.times.own();
-        const auto shown = second->times->image(moves ? m.time().value_or(second->times->own()) : second->times->own());
-        values.push_back(value_json(*shown, second->mm_to_index, at));
+        const auto of_second = second->times->image(moves ? m.time().value_or(second->times->own()) : second->times->own());
+        values.push_back(value_json(*of_second, second->mm_to_index, at));
     }
     return {{"values", std::move(values)}};
 }
@@ -58,15 +58,15 @@ void put_second_image(SessionState& s, OpenedImage opened) {
     std::erase_if(opened.notes, is_passing);
     for (std::string& sentence : assumptions_of_one_space(first, opened)) opened.notes.push_back(std::move(sentence));
     const ImageReference reference = opened.reference;
-    auto shown = std::make_shared<const FurtherImage>(further_image(std::move(opened)));
+    auto second = std::make_shared<const FurtherImage>(further_image(std::move(opened)));
     const std::scoped_lock lock(s.mutex);
     s.project.save_further_images({reference});
-    show_second_image(s, std::move(shown));
+    show_second_image(s, std::move(second));
 }
 
-void show_second_image(SessionState& s, std::shared_ptr<const FurtherImage> shown) {
-    s.edges.set_further(1, shown ? shown->opened.image : nullptr);
-    s.second.set(std::move(shown));
+void show_second_image(SessionState& s, std::shared_ptr<const FurtherImage> second) {
+    s.edges.set_further(1, second ? second->opened.image : nullptr);
+    s.second.set(std::move(second));
     s.pages.tell({{"event", "images"}, {"images", further_images_json(s)}});
 }
 

@@ -46,9 +46,9 @@ public:
         const std::scoped_lock lock(mutex_);
         return shown_;
     }
-    void set(std::shared_ptr<const FurtherImage> shown) {
+    void set(std::shared_ptr<const FurtherImage> second) {
         const std::scoped_lock lock(mutex_);
-        shown_ = std::move(shown);
+        shown_ = std::move(second);
     }
 
 private:

@@ -24,8 +24,8 @@ json values_json(const ValueStatistics& found) {
 }
 
 json row_json(const FittedStructure& one, const Image& image) {
-    const Statistics found = statistics(*one.made.mesh);
-    json row = values_json(value_statistics(one.made.mask, image));
+    const Statistics found = statistics(*one.segmentation.mesh);
+    json row = values_json(value_statistics(one.segmentation.mask, image));
     row.update({{"structure", one.structure.id},
                 {"name", one.structure.name},
                 {"contours", one.is_derived ? 0 : one.set.contours.size()},
@@ -34,7 +34,7 @@ json row_json(const FittedStructure& one, const Image& image) {
                 {"diameter_mm", found.diameter_mm},
                 {"diameter", {to_json(found.from), to_json(found.to)}},
                 {"extent_mm", to_json(found.extent_mm)}});
-    if (const SurfaceUncertainty& sure = one.made.report.uncertainty; sure.is_known)
+    if (const SurfaceUncertainty& sure = one.segmentation.report.uncertainty; sure.is_known)
         row["volume_90_ml"] = {sure.volume_low_ml, sure.volume_high_ml};
     return row;
 }
@@ -75,7 +75,7 @@ std::string statistics_reply(SessionState& s, std::optional<int> time, const Sto
         for (json& row : rows) row["second"] = {{"voxels", 0}};
         for (std::size_t n = 0, row = 0; n < on_other.size(); ++n, ++row) {
             while (all[row].structure.id != on_other[n].structure.id) ++row;  // it lies beyond the second image
-            rows[row]["second"] = values_json(value_statistics(on_other[n].made.mask, other));
+            rows[row]["second"] = values_json(value_statistics(on_other[n].segmentation.mask, other));
             rows[row]["second"]["points_beyond"] = points_outside(on_other[n].set, other.grid);
         }
         reply["second"] = {{"modality", second->opened.identity.modality}, {"unit", second->unit}};

@@ -46,7 +46,7 @@ std::vector<std::string> put_into_frames(ContourSet& set, const FramesOfImage& f
         return {};
     }
     turn_seconds_into_frames(set, frames);
-    std::size_t moved = 0;
+    std::size_t count = 0;
     for (std::size_t n = 0; n < set.contours.size(); ++n) {
         std::optional<double>& frame = set.contours[n].frame;
         if (!frame) continue;
@@ -54,12 +54,12 @@ std::vector<std::string> put_into_frames(ContourSet& set, const FramesOfImage& f
         if (!(nearest >= 1 && nearest <= frames.count))
             refuse(fmt::format("contour {} lies in frame {:g}, and the image's frames go from 1 to {}", n + 1, *frame,
                                frames.count));
-        moved += std::abs(nearest - *frame) > kSameFrame;
+        count += std::abs(nearest - *frame) > kSameFrame;
         frame = nearest;
     }
-    if (moved == 0) return {};
-    return {fmt::format("{} between two frames {} moved to the nearer one", counted(moved, "contour"),
-                        moved == 1 ? "was" : "were")};
+    if (count == 0) return {};
+    return {fmt::format("{} between two frames {} moved to the nearer one", counted(count, "contour"),
+                        count == 1 ? "was" : "were")};
 }
 
 std::optional<int> time_of(const Contour& contour, const FramesOfImage& frames) {

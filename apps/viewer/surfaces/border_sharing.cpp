@@ -169,29 +169,29 @@ const LoneSurface* BorderSharing::refitted(const LoneSurface& alone, const std::
     if (known.alone != alone.mesh || known.borrowed != borrowed) {
         ContourSet more = *alone.drawn;
         more.surface.insert(more.surface.end(), borrowed.begin(), borrowed.end());
-        known.made = refit(alone, more, work);
+        known.surface = refit(alone, more, work);
         known.alone = alone.mesh;
         known.borrowed = borrowed;
     }
-    return &known.made;
+    return &known.surface;
 }
 
 BorderSharing::Surfaces BorderSharing::with_borrowed_borders(const Surfaces& all, const UnionPartition& alone,
                                                              const Work& work, const Refit& refit) {
-    Surfaces made = all;
+    Surfaces surfaces = all;
     for (const auto& [group, function] : alone.unions) {
         Neighbours neighbours;
         neighbours.all = &function;
         for (const std::size_t n : group) {
             neighbours.drawn.push_back(all[n]->drawn.get());
-            neighbours.functions.push_back(&made[n]->function);
+            neighbours.functions.push_back(&surfaces[n]->function);
         }
         const auto borrowed = borrowed_borders(neighbours, work);
         for (std::size_t member = 0; member < group.size(); ++member)
             if (!borrowed[member].empty())
-                made[group[member]] = refitted(*all[group[member]], borrowed[member], work, refit);
+                surfaces[group[member]] = refitted(*all[group[member]], borrowed[member], work, refit);
     }
-    return made;
+    return surfaces;
 }
 
 std::vector<BorderPair> BorderSharing::pairs_of(const Surfaces& all, const Partition& parts, const Work& work) {

@@ -60,7 +60,7 @@ private:
     struct KnownRefit {
         std::shared_ptr<const TriangleMesh> alone;  ///< the surface that borrowed
         std::vector<SurfacePoint> borrowed;
-        LoneSurface made;
+        LoneSurface surface;
     };
     using Surfaces = std::vector<const LoneSurface*>;
     struct UnionPartition {

@@ -27,7 +27,7 @@ Surface no_surface(Id structure, std::string why) {
     return none;
 }
 
-const Surface* shown(const Derivations::Surfaces& surfaces, Id structure) {
+const Surface* surface_of(const Derivations::Surfaces& surfaces, Id structure) {
     const auto found = surfaces.find(structure);
     return found == surfaces.end() || !found->second->mesh ? nullptr : found->second.get();
 }
@@ -36,7 +36,7 @@ const Surface* shown(const Derivations::Surfaces& surfaces, Id structure) {
 std::vector<ShownStructure> sources_of(const RuleMembers& members, const Derivations::Surfaces& surfaces) {
     std::vector<ShownStructure> sources;
     for (const auto& [name, id] : members.drawn) {
-        const Surface& surface = *shown(surfaces, id);
+        const Surface& surface = *surface_of(surfaces, id);
         sources.push_back({name, surface.mesh, surface.function});
     }
     return sources;
@@ -46,13 +46,13 @@ std::vector<ShownStructure> sources_of(const RuleMembers& members, const Derivat
 std::string missing(const RuleTask& task, const Derivations::Surfaces& surfaces) {
     if (!task.problem.empty()) return task.problem;
     for (const auto& [name, id] : task.members.drawn)
-        if (!shown(surfaces, id)) return fmt::format("There is no surface of {} yet.", name);
+        if (!surface_of(surfaces, id)) return fmt::format("There is no surface of {} yet.", name);
     return "";
 }
 
 bool are_finished(const RuleMembers& members, const Derivations::Surfaces& surfaces) {
     return std::ranges::all_of(members.drawn, [&](const auto& item) {
-        const Surface* const surface = shown(surfaces, item.second);
+        const Surface* const surface = surface_of(surfaces, item.second);
         return surface && has_full_resolution(surface->stage);
     });
 }
@@ -60,7 +60,8 @@ bool are_finished(const RuleMembers& members, const Derivations::Surfaces& surfa
 /// What tells whether it would be made the same again.
 std::vector<std::string> revisions_of(const RuleMembers& members, const Derivations::Surfaces& surfaces) {
     std::vector<std::string> all = members.rules;
-    for (const auto& [name, id] : members.drawn) all.push_back(fmt::format("{} {}", name, shown(surfaces, id)->revision));
+    for (const auto& [name, id] : members.drawn)
+        all.push_back(fmt::format("{} {}", name, surface_of(surfaces, id)->revision));
     return all;
 }
 
@@ -104,7 +105,7 @@ Derivations::~Derivations() {
 
 void Derivations::follow(RuleTask task) {
     const std::scoped_lock lock(mutex_);
-    const Id structure = task.members.made.front();
+    const Id structure = task.members.derived.front();
     tasks_.insert_or_assign(structure, std::move(task));
     begin_locked({structure});
 }
@@ -118,11 +119,11 @@ void Derivations::forget(Id structure) {
 void Derivations::heard(Id structure) {
     const std::scoped_lock lock(mutex_);
     if (tasks_.contains(structure)) return;  // it is made together with what is made of it
-    std::set<Id> made;
+    std::set<Id> users;
     for (const auto& [id, task] : tasks_)
         if (std::ranges::any_of(task.members.drawn, [&](const auto& item) { return item.second == structure; }))
-            made.insert(id);
-    if (!made.empty()) begin_locked(made);
+            users.insert(id);
+    if (!users.empty()) begin_locked(users);
 }
 
 bool Derivations::makes(Id structure) const {
@@ -132,14 +133,14 @@ bool Derivations::makes(Id structure) const {
 
 std::set<Id> Derivations::made_of(const std::set<Id>& structures) const {
     const std::scoped_lock lock(mutex_);
-    std::set<Id> made;
+    std::set<Id> users;
     for (const auto& [id, task] : tasks_) {
         const RuleMembers& members = task.members;
         if (std::ranges::any_of(members.drawn, [&](const auto& item) { return structures.contains(item.second); }) ||
-            std::ranges::any_of(members.made, [&](Id member) { return structures.contains(member); }))
-            made.insert(id);
+            std::ranges::any_of(members.derived, [&](Id member) { return structures.contains(member); }))
+            users.insert(id);
     }
-    return made;
+    return users;
 }
 
 /// A preview runs to its end, so that surfaces keep coming while a hand drags a line.
@@ -193,9 +194,9 @@ void Derivations::make(const Tasks& tasks, const StopToken& stop) {
 
 /// Whether it has been made of the same surfaces: they were only on their way, or come back by undo.
 bool Derivations::show_again(const RuleMembers& members, const Surfaces& surfaces) {
-    const Id id = members.made.front();
+    const Id id = members.derived.front();
     const auto known = made_of_.find(id);
-    const Surface* const last = shown(surfaces, id);
+    const Surface* const last = surface_of(surfaces, id);
     if (!last || known == made_of_.end() || !are_finished(members, surfaces) ||
         known->second != revisions_of(members, surfaces))
         return false;
@@ -228,13 +229,13 @@ void Derivations::make_together(const Tasks& tasks, const Surfaces& surfaces, co
         const std::scoped_lock lock(mutex_);
         is_preview_ = !is_finished;
     }
-    const std::vector<TriangleMesh> made = meshes(members, surfaces, tasks.begin()->second.image, stop);
+    const std::vector<TriangleMesh> derived = meshes(members, surfaces, tasks.begin()->second.image, stop);
     const bool is_current = is_finished && are_finished(members, sources_());
     for (const auto& [id, task] : tasks) {
-        const auto at = static_cast<std::size_t>(std::ranges::find(members.made, id) - members.made.begin());
-        Surface surface = no_surface(id, made[at].triangles.empty() ? "The rule leaves nothing." : "");
-        if (!made[at].triangles.empty()) {
-            surface.mesh = std::make_shared<const TriangleMesh>(made[at]);
+        const auto at = static_cast<std::size_t>(std::ranges::find(members.derived, id) - members.derived.begin());
+        Surface surface = no_surface(id, derived[at].triangles.empty() ? "The rule leaves nothing." : "");
+        if (!derived[at].triangles.empty()) {
+            surface.mesh = std::make_shared<const TriangleMesh>(derived[at]);
             surface.volume_ml = signed_volume_mm3(*surface.mesh) / 1000;
             surface.stage = is_current && is_newest(id) ? SurfaceStage::finished : SurfaceStage::preview;
         }

@@ -128,11 +128,11 @@ struct MaskEditor::Worker {
         const std::shared_ptr<const VolumeOfMask> mask = opened_mask();
         const MaskChange change =
             mask_change({mask->whole, mask->surface, image}, request.corrections, request.options, work);
-        CorrectedMesh made = mask->mesh.corrected(change.lattice.get(), change.voxels, Work{.stop = stop});
+        CorrectedMesh corrected = mask->mesh.corrected(change.lattice.get(), change.voxels, Work{.stop = stop});
         auto edit = std::make_shared<MaskEdit>();
         edit->report = change.report;
-        edit->origins = origins_of(made.made_by);
-        edit->mesh = std::make_shared<const TriangleMesh>(std::move(made.mesh));
+        edit->origins = origins_of(corrected.made_by);
+        edit->mesh = std::make_shared<const TriangleMesh>(std::move(corrected.mesh));
         edit->step = step_of(changed_by(change, request.step), change.report);
         return edit;
     }

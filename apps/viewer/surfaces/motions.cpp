@@ -65,39 +65,39 @@ void Motions::follow(MotionTask task) {
     const std::scoped_lock lock(mutex_);
     const Id structure = task.structure;
     stop_work_on(structure);
-    Made& made = made_[structure];
-    made.meshes = nullptr;
-    made.masks = nullptr;
-    made.waiting = std::move(task);
+    KnownMotion& known = motions_[structure];
+    known.meshes = nullptr;
+    known.masks = nullptr;
+    known.waiting = std::move(task);
     if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
     changed_.notify_all();
 }
 
 void Motions::outdate(Id structure) {
-    std::shared_ptr<const Motion> shown;
+    std::shared_ptr<const Motion> motion;
     {
         const std::scoped_lock lock(mutex_);
-        const auto found = made_.find(structure);
-        if (found == made_.end()) return;
+        const auto found = motions_.find(structure);
+        if (found == motions_.end()) return;
         stop_work_on(structure);
-        Made& made = found->second;
-        made.meshes = nullptr;
-        made.masks = nullptr;
-        made.waiting.reset();
-        if (!made.shown || !made.shown->is_finished) return;
-        Motion outdated = *made.shown;
+        KnownMotion& known = found->second;
+        known.meshes = nullptr;
+        known.masks = nullptr;
+        known.waiting.reset();
+        if (!known.latest || !known.latest->is_finished) return;
+        Motion outdated = *known.latest;
         outdated.is_finished = false;
-        made.shown = shown = std::make_shared<const Motion>(std::move(outdated));
+        known.latest = motion = std::make_shared<const Motion>(std::move(outdated));
     }
-    listener_(shown);
+    listener_(motion);
 }
 
 void Motions::forget(Id structure) {
     {
         const std::scoped_lock lock(mutex_);
-        if (!made_.contains(structure)) return;
+        if (!motions_.contains(structure)) return;
         stop_work_on(structure);
-        made_.erase(structure);
+        motions_.erase(structure);
         changed_.notify_all();
     }
     auto none = std::make_shared<Motion>();
@@ -117,15 +117,15 @@ int Motions::looked_at() const {
 
 std::shared_ptr<const Motion> Motions::of(Id structure) const {
     const std::scoped_lock lock(mutex_);
-    const auto found = made_.find(structure);
-    return found == made_.end() ? nullptr : found->second.shown;
+    const auto found = motions_.find(structure);
+    return found == motions_.end() ? nullptr : found->second.latest;
 }
 
 std::map<Id, std::shared_ptr<const Motion>> Motions::all() const {
     const std::scoped_lock lock(mutex_);
     std::map<Id, std::shared_ptr<const Motion>> all;
-    for (const auto& [id, made] : made_)
-        if (made.shown) all[id] = made.shown;
+    for (const auto& [id, known] : motions_)
+        if (known.latest) all[id] = known.latest;
     return all;
 }
 
@@ -150,14 +150,14 @@ std::optional<int> Motions::missing_time(const Motion& motion) const {
 
 /// Under the lock.
 std::optional<Motions::Step> Motions::next_step() const {
-    for (const auto& [id, made] : made_)
-        if (made.waiting) return Step{Step::Kind::fit, id, 0};
+    for (const auto& [id, known] : motions_)
+        if (known.waiting) return Step{Step::Kind::fit, id, 0};
     std::optional<Step> other;
-    for (const auto& [id, made] : made_) {
-        if (!made.meshes) continue;
-        const std::optional<int> time = missing_time(*made.shown);
+    for (const auto& [id, known] : motions_) {
+        if (!known.meshes) continue;
+        const std::optional<int> time = missing_time(*known.latest);
         if (time == looked_at_) return Step{Step::Kind::mesh, id, *time};
-        if (made.masks) other = Step{Step::Kind::volumes, id, 0};
+        if (known.masks) other = Step{Step::Kind::volumes, id, 0};
         else if (time && !other) other = Step{Step::Kind::mesh, id, *time};
     }
     return other;
@@ -186,11 +186,11 @@ void Motions::carry_out(const Step& step, const StopToken& stop) {
         else if (step.kind == Step::Kind::mesh) add_mesh(step, stop);
         else add_volumes(step.structure, stop);
     } catch (const std::exception& error) {
-        const auto* known = dynamic_cast<const Error*>(&error);
-        if (known && known->kind() == ErrorKind::cancelled) return;
-        show(step.structure, stop, [&](Made& made, Motion& motion) {
-            made.meshes = nullptr;
-            made.masks = nullptr;
+        const auto* failure = dynamic_cast<const Error*>(&error);
+        if (failure && failure->kind() == ErrorKind::cancelled) return;
+        show(step.structure, stop, [&](KnownMotion& known, Motion& motion) {
+            known.meshes = nullptr;
+            known.masks = nullptr;
             motion.frames.assign(motion.frames.size(), {});
             motion.volumes.reset();
             motion.warnings = {error.what()};
@@ -200,19 +200,19 @@ void Motions::carry_out(const Step& step, const StopToken& stop) {
 }
 
 /// Changes what is shown and tells it, unless there are other contours already; false then.
-bool Motions::show(Id structure, const StopToken& stop, const std::function<void(Made&, Motion&)>& change) {
-    std::shared_ptr<const Motion> shown;
+bool Motions::show(Id structure, const StopToken& stop, const std::function<void(KnownMotion&, Motion&)>& change) {
+    std::shared_ptr<const Motion> latest;
     {
         const std::scoped_lock lock(mutex_);
-        const auto found = made_.find(structure);
-        if (stop.stop_requested() || found == made_.end()) return false;
-        Made& made = found->second;
-        Motion motion = made.shown ? *made.shown : Motion{};
+        const auto found = motions_.find(structure);
+        if (stop.stop_requested() || found == motions_.end()) return false;
+        KnownMotion& known = found->second;
+        Motion motion = known.latest ? *known.latest : Motion{};
         motion.structure = structure;
-        change(made, motion);
-        made.shown = shown = std::make_shared<const Motion>(std::move(motion));
+        change(known, motion);
+        known.latest = latest = std::make_shared<const Motion>(std::move(motion));
     }
-    listener_(shown);
+    listener_(latest);
     return true;
 }
 
@@ -221,23 +221,23 @@ void Motions::fit(Id structure, const StopToken& stop) {
     std::shared_ptr<MovingFitter> fitter;
     {
         const std::scoped_lock lock(mutex_);
-        const auto found = made_.find(structure);
-        if (found == made_.end() || !found->second.waiting) return;
-        Made& made = found->second;
-        task = std::exchange(made.waiting, std::nullopt);
+        const auto found = motions_.find(structure);
+        if (found == motions_.end() || !found->second.waiting) return;
+        KnownMotion& known = found->second;
+        task = std::exchange(known.waiting, std::nullopt);
         const bool uses_image = static_cast<bool>(task->frames.image_at);
-        if (!made.fitter || made.smoothing != task->smoothing || made.uses_image != uses_image) {
-            made.fitter = std::make_shared<MovingFitter>(
+        if (!known.fitter || known.smoothing != task->smoothing || known.uses_image != uses_image) {
+            known.fitter = std::make_shared<MovingFitter>(
                 task->frames, SegmentOptions{.smoothing = task->smoothing, .drawn_on = task->frames.grid});
-            made.smoothing = task->smoothing;
-            made.uses_image = uses_image;
+            known.smoothing = task->smoothing;
+            known.uses_image = uses_image;
         }
-        fitter = made.fitter;
-        if (!made.shown || made.shown->frames.empty()) {
+        fitter = known.fitter;
+        if (!known.latest || known.latest->frames.empty()) {
             Motion motion;
             motion.structure = structure;
             motion.frames.resize(static_cast<std::size_t>(task->times));
-            made.shown = std::make_shared<const Motion>(std::move(motion));
+            known.latest = std::make_shared<const Motion>(std::move(motion));
         }
     }
     const Work work{.stop = stop};
@@ -245,10 +245,10 @@ void Motions::fit(Id structure, const StopToken& stop) {
     const auto meshes = std::make_shared<const MeshCourse>(fitted.function, fitted.starts(),
                                                            kSpacingFraction * diameter_mm(task->set), work);
     const auto mask_course = std::make_shared<const MaskCourse>(fitted.mask_course(work));
-    show(structure, stop, [&](Made& made, Motion& motion) {
-        made.meshes = meshes;
-        made.masks = mask_course;
-        made.sureness = sureness_of(fitted.moments);
+    show(structure, stop, [&](KnownMotion& known, Motion& motion) {
+        known.meshes = meshes;
+        known.masks = mask_course;
+        known.sureness = sureness_of(fitted.moments);
         for (MotionFrame& frame : motion.frames) frame.is_current = false;
         motion.sections = sections_of(fitted.moments);
         motion.warnings = fitted.warnings;
@@ -262,16 +262,16 @@ void Motions::add_mesh(const Step& step, const StopToken& stop) {
     std::shared_ptr<const MeshCourse> meshes;
     {
         const std::scoped_lock lock(mutex_);
-        const auto found = made_.find(step.structure);
-        if (found == made_.end() || !found->second.meshes) return;
+        const auto found = motions_.find(step.structure);
+        if (found == motions_.end() || !found->second.meshes) return;
         meshes = found->second.meshes;
     }
     auto mesh = std::make_shared<const TriangleMesh>(meshes->at(frame_number(step.time)));
     const std::int64_t revision = next_revision_();
-    show(step.structure, stop, [&](Made& made, Motion& motion) {
+    show(step.structure, stop, [&](KnownMotion& known, Motion& motion) {
         motion.frames[static_cast<std::size_t>(step.time)] = {revision, std::move(mesh), true};
         give_up_far(motion);
-        motion.is_finished = !made.masks && !missing_time(motion);
+        motion.is_finished = !known.masks && !missing_time(motion);
     });
 }
 
@@ -281,11 +281,11 @@ void Motions::add_volumes(Id structure, const StopToken& stop) {
     int times = 0;
     {
         const std::scoped_lock lock(mutex_);
-        const auto found = made_.find(structure);
-        if (found == made_.end() || !found->second.masks) return;
+        const auto found = motions_.find(structure);
+        if (found == motions_.end() || !found->second.masks) return;
         masks = found->second.masks;
         sureness = found->second.sureness;
-        times = static_cast<int>(found->second.shown->frames.size());
+        times = static_cast<int>(found->second.latest->frames.size());
     }
     std::vector<double> volumes;
     for (int time = 0; time < times; ++time) {
@@ -293,8 +293,8 @@ void Motions::add_volumes(Id structure, const StopToken& stop) {
         volumes.push_back(volume_ml(masks->at(frame_number(time))));
     }
     std::vector<VolumeInterval> intervals = volume_intervals(*masks, sureness, all_frames(times), volumes);
-    show(structure, stop, [&](Made& made, Motion& motion) {
-        made.masks = nullptr;
+    show(structure, stop, [&](KnownMotion& known, Motion& motion) {
+        known.masks = nullptr;
         motion.volumes = volume_curve(std::move(volumes), std::move(intervals));
         motion.is_finished = !missing_time(motion);
     });

@@ -78,8 +78,8 @@ public:
     void wait();
 
 private:
-    struct Made {
-        std::shared_ptr<const Motion> shown;
+    struct KnownMotion {
+        std::shared_ptr<const Motion> latest;
         std::shared_ptr<const MeshCourse> meshes;  ///< of the contours of now; null: nothing more can be made
         std::shared_ptr<const MaskCourse> masks;   ///< until the volumes are known
         std::vector<MomentSureness> sureness;      ///< of the moments of these masks
@@ -104,13 +104,13 @@ private:
     void add_volumes(Id structure, const StopToken& stop);
     void give_up_far(Motion& motion) const;
     void stop_work_on(Id structure);
-    bool show(Id structure, const StopToken& stop, const std::function<void(Made&, Motion&)>& change);
+    bool show(Id structure, const StopToken& stop, const std::function<void(KnownMotion&, Motion&)>& change);
 
     const std::function<std::int64_t()> next_revision_;
     const Listener listener_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::map<Id, Made> made_;
+    std::map<Id, KnownMotion> motions_;
     int looked_at_ = 0;
     std::optional<Step> running_;
     StopSource closed_, stop_;

@@ -15,8 +15,8 @@ std::vector<SurfaceFault> surface_faults(const SectionCheck& check, const std::v
         // Where a structure moves, sections without an id stand for contours.
         if (std::ranges::any_of(fault.contours, [&](std::size_t n) { return ids.at(n) == 0; })) continue;
         if (++counts[fault.kind] > kMost) continue;
-        SurfaceFault& shown = found.emplace_back(SurfaceFault{fault.kind, fault.position, {}, fault.share, fault.length_mm});
-        for (const std::size_t contour : fault.contours) shown.contours.push_back(ids.at(contour));
+        SurfaceFault& place = found.emplace_back(SurfaceFault{fault.kind, fault.position, {}, fault.share, fault.length_mm});
+        for (const std::size_t contour : fault.contours) place.contours.push_back(ids.at(contour));
     }
     return found;
 }

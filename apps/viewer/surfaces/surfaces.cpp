@@ -55,7 +55,7 @@ Surface no_surface(Id structure, std::vector<std::string> warnings = {}) {
     return surface;
 }
 
-Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
+Surface surface_of(const SurfaceTask& task, const EditorUpdate& update) {
     Surface surface = no_surface(task.structure);
     if (task.motion) surface.time = task.time;
     if (update.kind == EditorUpdate::Kind::problem && !task.set.contours.empty()) surface.warnings.push_back(update.problem);
@@ -127,17 +127,17 @@ void Surfaces::outdate(const std::set<Id>& structures) {
         outdate_locked(structure);
         motions_.outdate(structure);
     }
-    for (const Id made : derivations_.made_of(structures)) outdate_locked(made);  // they follow by themselves
+    for (const Id user : derivations_.made_of(structures)) outdate_locked(user);  // they follow by themselves
 }
 
 void Surfaces::outdate_locked(Id structure) {
     if (const auto follower = followers_.find(structure); follower != followers_.end()) follower->second.is_outdated = true;
-    const auto shown = latest_.find(structure);
-    if (shown == latest_.end() || !has_full_resolution(shown->second->stage)) return;
-    Surface outdated = *shown->second;
+    const auto latest = latest_.find(structure);
+    if (latest == latest_.end() || !has_full_resolution(latest->second->stage)) return;
+    Surface outdated = *latest->second;
     outdated.stage = SurfaceStage::outdated;
-    shown->second = std::make_shared<const Surface>(std::move(outdated));
-    listener_.surface(shown->second);
+    latest->second = std::make_shared<const Surface>(std::move(outdated));
+    listener_.surface(latest->second);
 }
 
 void Surfaces::use_image(std::shared_ptr<const Image> image) {
@@ -304,9 +304,9 @@ Surfaces::Alone Surfaces::heard(const SurfaceTask& task, const EditorUpdate& upd
                              (update.kind == EditorUpdate::Kind::problem && known.surface.stage == SurfaceStage::asking);
     const bool is_used = update.surface.image.verdict == ImageVerdict::used;
     if (!is_of_image || is_used) {
-        Alone made{shown(task, update), update.surface.function};
-        if (is_used) made.surface.without_image = known.surface.mesh;
-        return made;
+        Alone alone{surface_of(task, update), update.surface.function};
+        if (is_used) alone.surface.without_image = known.surface.mesh;
+        return alone;
     }
     if (known.surface.stage == SurfaceStage::asking) known.surface.stage = SurfaceStage::finished;
     if (update.kind == EditorUpdate::Kind::problem)

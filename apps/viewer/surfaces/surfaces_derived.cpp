@@ -13,7 +13,7 @@ void Surfaces::start_rule(Follower& follower, RuleTask task) {
     follower.edits_before = follower.last_edit;
     follower.tasks.clear();
     follower.is_working = false;
-    alone_.erase(task.members.made.front());
+    alone_.erase(task.members.derived.front());
     derivations_.follow(std::move(task));
 }
 

@@ -12,7 +12,7 @@
 namespace kontur::viewer {
 namespace {
 
-Surface shown(const SurfaceTask& task, const MaskUpdate& update) {
+Surface surface_of(const SurfaceTask& task, const MaskUpdate& update) {
     Surface surface;
     surface.structure = task.structure;
     if (update.kind == MaskUpdate::Kind::problem) surface.warnings.push_back(update.problem);
@@ -93,7 +93,7 @@ void Surfaces::hear_mask(Id structure, std::uint64_t edit, const MaskUpdate& upd
     }
     if (update.kind == MaskUpdate::Kind::progress)
         return listener_.status(fmt::format("{}: correcting", task.set.name), update.done);
-    Surface surface = shown(task, update);
+    Surface surface = surface_of(task, update);
     if (surface.mesh) {
         surface.revision = next_revision();
         listener_.outlines(structure, surface.revision, cutters(surface));

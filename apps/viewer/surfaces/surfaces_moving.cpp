@@ -9,14 +9,15 @@ std::map<Id, ShownSurface> Surfaces::at(int time) const {
     std::map<Id, ShownSurface> all;
     const auto motions = motions_.all();
     for (const auto& [id, surface] : this->all()) {
-        ShownSurface& shown = all[id] = {surface->revision, surface->stage, surface->mesh, surface->without_image};
+        ShownSurface& surface_now = all[id] = {surface->revision, surface->stage, surface->mesh, surface->without_image};
         const auto found = motions.find(id);
         if (found == motions.end() || time >= static_cast<int>(found->second->frames.size())) continue;
         const Motion& motion = *found->second;
         const MotionFrame& frame = motion.frames[static_cast<std::size_t>(time)];
         // What the hand shows of this time may be newer; of another time it is no more than better than nothing.
         if (!frame.mesh || (surface->time == time && surface->revision > frame.revision)) continue;
-        shown = {frame.revision, motion.is_finished ? SurfaceStage::finished : SurfaceStage::preview, frame.mesh, nullptr};
+        surface_now = {frame.revision, motion.is_finished ? SurfaceStage::finished : SurfaceStage::preview, frame.mesh,
+                       nullptr};
     }
     return all;
 }

@@ -31,8 +31,8 @@ LoneSurface refitted(const LoneSurface& alone, const ContourSet& contours, std::
                      const Image* image, const Work& work) {
     EditorOptions options;
     options.segment.smoothing = smoothing;
-    EditedSurface made = Editor(options).finish(contours, image, work);
-    return {alone.structure, alone.drawn, made.function, std::make_shared<const TriangleMesh>(std::move(made.mesh))};
+    EditedSurface finished = Editor(options).finish(contours, image, work);
+    return {alone.structure, alone.drawn, finished.function, std::make_shared<const TriangleMesh>(std::move(finished.mesh))};
 }
 
 }  // namespace
@@ -140,8 +140,8 @@ void Surfaces::publish_shared(const Alone& alone, std::shared_ptr<const Triangle
     {
         const std::scoped_lock lock(mutex_);
         if (!is_wanted()) return;
-        const Surface& shown = *latest_.at(id);
-        if (shown.stage == SurfaceStage::finished && shown.drawn == alone.surface.drawn && is_same(*shown.mesh, *mesh))
+        const Surface& latest = *latest_.at(id);
+        if (latest.stage == SurfaceStage::finished && latest.drawn == alone.surface.drawn && is_same(*latest.mesh, *mesh))
             return;
     }
     Surface surface = with_mesh(alone.surface, std::move(mesh));

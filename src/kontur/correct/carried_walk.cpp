@@ -222,15 +222,15 @@ bool is_in_plane(const Plane& plane, const Grid& grid, const Vec3& center) {
 
 std::vector<std::uint8_t> CarriedVoxels::followed(const Index3& size, double weight) const {
     std::vector<std::uint8_t> sides = alone;
-    std::vector<std::size_t> moved, front;
+    std::vector<std::size_t> seeds, front;
     for (std::size_t n = 0; n < alone.size(); ++n) {
         const double other = alone[n] ? 1 - static_cast<double>(walked[n]) : static_cast<double>(walked[n]);
         if (weight * other <= 0.5) continue;
         sides[n] = !alone[n];
-        moved.push_back(n);
+        seeds.push_back(n);
     }
     std::vector<std::uint8_t> hangs(alone.size());
-    for (const std::size_t n : moved)
+    for (const std::size_t n : seeds)
         visit_neighbours(size, n, [&](int, int, std::size_t next) {
             if (hangs[n] || sides[next] != sides[n] || alone[next] != sides[next]) return;
             hangs[n] = 1;
@@ -245,7 +245,7 @@ std::vector<std::uint8_t> CarriedVoxels::followed(const Index3& size, double wei
             front.push_back(next);
         });
     }
-    for (const std::size_t n : moved)
+    for (const std::size_t n : seeds)
         if (!hangs[n]) sides[n] = alone[n];
     return sides;
 }

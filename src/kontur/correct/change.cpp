@@ -133,18 +133,18 @@ private:
             if (!takes_part_[n] && lacking > 0) broken.emplace_back(-lacking, n);
         }
         std::sort(broken.begin(), broken.end());
-        std::vector<Vec3> held;
+        std::vector<Vec3> limits;
         for (const auto& [lacking, n] : broken) {
             const CorrectionBound& bound = data_.bounds[n];
             const auto is_near = [&](const Vec3& p) { return distance(p, bound.position) < lengths_.spacing; };
-            if (std::any_of(held.begin(), held.end(), is_near)) continue;
-            held.push_back(bound.position);
+            if (std::any_of(limits.begin(), limits.end(), is_near)) continue;
+            limits.push_back(bound.position);
             takes_part_[n] = true;
             add({bound.position, bound.sign * bound.least_mm - before_[n],
                  kBoundNoise * bound.least_mm + kBoundStepNoise * lengths_.step},
                 bound.section);
         }
-        return !held.empty();
+        return !limits.empty();
     }
 
     /// The factored matrix of the centres' equations.

@@ -132,7 +132,7 @@ private:
 };
 
 /// What is said of a voxel, the last word counts.
-struct Said {
+struct VoxelClaim {
     std::size_t offset;
     int by;  ///< 0 carried, 1 drawn, 2 the image
     bool inside;
@@ -170,25 +170,26 @@ std::vector<VoxelSide> drawn_voxels(const std::vector<CorrectedSection>& section
 
 std::vector<MadeVoxel> made_voxels(const Mask& before, const std::vector<VoxelSide>& carried,
                                    const std::vector<VoxelSide>& drawn, const std::vector<VoxelSide>& by_image) {
-    std::vector<Said> said;
+    std::vector<VoxelClaim> claims;
     const auto append = [&](const std::vector<VoxelSide>& voxels, int by) {
-        for (const VoxelSide& voxel : voxels) said.push_back({voxel.offset, by, voxel.inside});
+        for (const VoxelSide& voxel : voxels) claims.push_back({voxel.offset, by, voxel.inside});
     };
     append(carried, 0);
     append(drawn, 1);
     append(by_image, 2);
-    std::ranges::stable_sort(
-        said, [](const Said& a, const Said& b) { return a.offset != b.offset ? a.offset < b.offset : a.by < b.by; });
-    std::vector<MadeVoxel> made;
+    std::ranges::stable_sort(claims, [](const VoxelClaim& a, const VoxelClaim& b) {
+        return a.offset != b.offset ? a.offset < b.offset : a.by < b.by;
+    });
+    std::vector<MadeVoxel> voxels;
     bool is_drawn = false;
-    for (std::size_t n = 0; n < said.size(); ++n) {
-        is_drawn = is_drawn || said[n].by == 1;
-        if (n + 1 < said.size() && said[n + 1].offset == said[n].offset) continue;
-        if (said[n].inside != (before.values[said[n].offset] != 0))
-            made.push_back({said[n].offset, how(said[n].inside, is_drawn, said[n].by)});
+    for (std::size_t n = 0; n < claims.size(); ++n) {
+        is_drawn = is_drawn || claims[n].by == 1;
+        if (n + 1 < claims.size() && claims[n + 1].offset == claims[n].offset) continue;
+        if (claims[n].inside != (before.values[claims[n].offset] != 0))
+            voxels.push_back({claims[n].offset, how(claims[n].inside, is_drawn, claims[n].by)});
         is_drawn = false;
     }
-    return made;
+    return voxels;
 }
 
 }  // namespace kontur

@@ -96,12 +96,12 @@ IndexBox box_with(IndexBox box, const std::vector<Voxel>& voxels, const Index3& 
 /// Finds the pieces that hang loose, in the box of all that is or was inside.
 class LooseSearch {
 public:
-    LooseSearch(const MaskToCorrect& what, const std::vector<MadeVoxel>& made)
+    LooseSearch(const MaskToCorrect& what, const std::vector<MadeVoxel>& voxels)
         : whole_(what.mask.grid),
-          box_(box_with(what.surface.object_box(), made, whole_.size)),
+          box_(box_with(what.surface.object_box(), voxels, whole_.size)),
           before_(part_of(what.mask, box_)),
           after_(before_) {
-        for (const MadeVoxel& voxel : made) after_.values[in_box(voxel.offset)] = voxel.is_inside();
+        for (const MadeVoxel& voxel : voxels) after_.values[in_box(voxel.offset)] = voxel.is_inside();
         parts_ = find_components(after_);
         loose_ = loose_components(before_, parts_);
     }
@@ -119,7 +119,7 @@ public:
     }
 
     /// Takes them away from what becomes of the mask.
-    void drop_from(std::vector<MadeVoxel>& made) const {
+    void drop_from(std::vector<MadeVoxel>& voxels) const {
         std::vector<MadeVoxel> dropped;
         for (const ComponentRun& run : parts_.runs) {
             if (std::ranges::find(loose_, run.component) == loose_.end()) continue;
@@ -127,10 +127,10 @@ public:
                 dropped.push_back({in_whole(n), CorrectedVoxel::removed_carried});
         }
         std::vector<MadeVoxel> kept;  // a voxel inside a piece was added, or stayed
-        std::ranges::set_difference(made, dropped, std::back_inserter(kept), {}, &MadeVoxel::offset, &MadeVoxel::offset);
+        std::ranges::set_difference(voxels, dropped, std::back_inserter(kept), {}, &MadeVoxel::offset, &MadeVoxel::offset);
         std::erase_if(dropped, [&](const MadeVoxel& voxel) { return before_.values[in_box(voxel.offset)] == 0; });
-        made.clear();
-        std::ranges::merge(kept, dropped, std::back_inserter(made), {}, &MadeVoxel::offset, &MadeVoxel::offset);
+        voxels.clear();
+        std::ranges::merge(kept, dropped, std::back_inserter(voxels), {}, &MadeVoxel::offset, &MadeVoxel::offset);
     }
 
 private:
@@ -189,16 +189,16 @@ MaskChange mask_change(const MaskToCorrect& what, const Corrections& corrections
     work.report("correct", 0);
     const std::vector<CorrectedSection> sections = corrected_sections(surface, corrections, lengths.step);
     const CorrectionData data = correction_data(surface, sections, corrections.drawing, lengths);
-    MaskChange made;
-    CorrectReport& report = made.report;
+    MaskChange change;
+    CorrectReport& report = change.report;
     report.warnings = data.contradictions;
     warn_of_parts(sections, surface, report.warnings);
     work.report("correct", 0.3);
-    made.function = std::make_shared<const SurfaceChange>(solve_change(surface, data, lengths, work));
+    change.function = std::make_shared<const SurfaceChange>(solve_change(surface, data, lengths, work));
     work.report("correct", 0.6);
-    made.lattice = change_lattice(surface, *made.function, work);
+    change.lattice = change_lattice(surface, *change.function, work);
     std::vector<VoxelSide> carried, by_image;
-    if (made.lattice) carried = carried_voxels(mask, surface, *made.function, *made.lattice, work);
+    if (change.lattice) carried = carried_voxels(mask, surface, *change.function, *change.lattice, work);
     if (image) {
         work.report("correct", 0.7);
         ImageReachedVoxels reached =
@@ -207,15 +207,15 @@ MaskChange mask_change(const MaskToCorrect& what, const Corrections& corrections
         by_image = std::move(reached.voxels);
     }
     const IndexBox box = box_with(box_with(surface.object_box(), carried, mask.grid.size), by_image, mask.grid.size);
-    made.voxels = made_voxels(mask, carried, drawn_voxels(sections, mask.grid, box), by_image);
-    find_loose(what, options.drop_loose, made);
-    count(surface, made);
+    change.voxels = made_voxels(mask, carried, drawn_voxels(sections, mask.grid, box), by_image);
+    find_loose(what, options.drop_loose, change);
+    count(surface, change);
     report.length_mm = lengths.length;
     report.reach_mm = kReachLengths * lengths.length;
     for (const CorrectedSection& section : sections)
         report.planes.push_back({kind_of(section), section.plane, section.contours, section.largest_move_mm});
     work.report("correct", 1);
-    return made;
+    return change;
 }
 
 }  // namespace kontur

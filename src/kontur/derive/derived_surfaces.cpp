@@ -68,8 +68,8 @@ IndexBox region_of(const std::vector<Rule>& rules, const std::vector<std::size_t
     double sight = 0;
     for (const ShownStructure& one : structures) known[one.name] = bounding_box(one.mesh->points);
     for (const std::size_t n : order) {
-        const Extent made = known[rules[n].name] = extent_of(rules[n].expression, known);
-        all = of_both(all, made);
+        const Extent extent = known[rules[n].name] = extent_of(rules[n].expression, known);
+        all = of_both(all, extent);
         sight += sight_of(rules[n].expression);
     }
     if (!all) return whole;
@@ -133,15 +133,15 @@ std::vector<TriangleMesh> derived_surfaces(std::span<const std::string> texts, s
         return mask_levels(part_of(*options.body(threshold), voxels), scene.lattice, work.untold());
     };
     for (const ShownStructure& one : structures) scene.levels[one.name] = levels_of(one, scene, voxels.grid, work.untold());
-    std::vector<TriangleMesh> made(rules.size());
+    std::vector<TriangleMesh> meshes(rules.size());
     double done = 0;
     for (const std::size_t n : order) {
         work.report("derive", done++ / static_cast<double>(order.size()));
         Levels& levels = scene.levels[rules[n].name];
         levels = evaluate(rules[n].expression, scene, work.untold());
-        made[n] = level_mesh(levels, scene.lattice.grid, work);
+        meshes[n] = level_mesh(levels, scene.lattice.grid, work);
     }
-    return made;
+    return meshes;
 }
 
 }  // namespace kontur

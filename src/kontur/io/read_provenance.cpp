@@ -71,8 +71,8 @@ Provenance from_json(const fs::path& path) {
     Provenance found;
     if (!document.is_object()) return found;
     for (const char* key : {"provenance", "kontur"})
-        if (const auto made = document.find(key); made != document.end() && made->is_object())
-            for (const auto& [name, value] : made->items())
+        if (const auto entries = document.find(key); entries != document.end() && entries->is_object())
+            for (const auto& [name, value] : entries->items())
                 if (value.is_string()) found.emplace_back(name, value.get<std::string>());
     return found;
 }

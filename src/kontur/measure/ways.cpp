@@ -85,8 +85,8 @@ public:
             for (const Way* way : shared) {
                 lengths.push_back(way->length_mm);
                 if (is_known_empty(way->quarters(), way->length_mm, way->direction, own, to)) continue;
-                std::array<std::size_t, kQuarters.size()>& asked = pair.asked.emplace_back();
-                for (std::size_t q = 0; q < kQuarters.size(); ++q) asked[q] = questions.ask(way->at(kQuarters[q]));
+                std::array<std::size_t, kQuarters.size()>& probes = pair.probes.emplace_back();
+                for (std::size_t q = 0; q < kQuarters.size(); ++q) probes[q] = questions.ask(way->at(kQuarters[q]));
             }
             pair.gap_mm = median(std::move(lengths));
         }
@@ -102,8 +102,8 @@ public:
         pair.gap_mm = bent.length_mm;
         for (const auto& places : bent.places) {
             if (is_known_empty(places, bent.length_mm, bent.direction, bent.own, bent.to)) continue;
-            std::array<std::size_t, kQuarters.size()>& asked = pair.asked.emplace_back();
-            for (std::size_t q = 0; q < kQuarters.size(); ++q) asked[q] = questions.ask(places[q]);
+            std::array<std::size_t, kQuarters.size()>& probes = pair.probes.emplace_back();
+            for (std::size_t q = 0; q < kQuarters.size(); ++q) probes[q] = questions.ask(places[q]);
         }
     }
 
@@ -112,11 +112,11 @@ public:
         for (const Pair& pair : pairs_) {
             std::size_t missing = 0;
             std::optional<Vec3> place;
-            for (const auto& asked : pair.asked) {
+            for (const auto& probes : pair.probes) {
                 const bool leaves =
-                    std::any_of(asked.begin(), asked.end(), [&](std::size_t q) { return !questions.is_inside(q); });
+                    std::any_of(probes.begin(), probes.end(), [&](std::size_t q) { return !questions.is_inside(q); });
                 missing += leaves;
-                if (leaves && !place) place = questions.place(asked[kQuarters.size() / 2]);
+                if (leaves && !place) place = questions.place(probes[kQuarters.size() / 2]);
             }
             if (!place) continue;
             const double share = static_cast<double>(missing) / static_cast<double>(pair.ways);
@@ -128,7 +128,7 @@ private:
     struct Pair {
         std::size_t own, to, contour, other, ways;
         double gap_mm;
-        std::vector<std::array<std::size_t, kQuarters.size()>> asked;
+        std::vector<std::array<std::size_t, kQuarters.size()>> probes;
     };
 
     Pair& add_pair(std::size_t own, std::size_t to, std::size_t contour, std::size_t other, std::size_t ways) {
@@ -196,7 +196,7 @@ public:
         last.ways = 0;
         for (std::size_t n = 0; n < free.size(); n += stride, ++last.ways)
             for (std::size_t step = 0; step < kSteps; ++step)
-                last.asked.push_back(
+                last.probes.push_back(
                     questions.ask(free[n]->from + (static_cast<double>(step) + 0.5) * last.step_mm * direction));
     }
 
@@ -205,7 +205,7 @@ public:
         for (const Last& last : lasts_) {
             std::size_t inside = 0, farthest = 0;
             double farthest_mm = 0;
-            for (const std::size_t q : last.asked) {
+            for (const std::size_t q : last.probes) {
                 if (!questions.is_inside(q)) continue;
                 ++inside;
                 const double off = std::abs(looks_[last.own].plane().distance_to(questions.place(q)));
@@ -223,7 +223,7 @@ private:
     struct Last {
         std::size_t own, ways;
         double gap_mm, step_mm;
-        std::vector<std::size_t> asked;
+        std::vector<std::size_t> probes;
     };
 
     /// How far what was drawn reaches beyond a plane.

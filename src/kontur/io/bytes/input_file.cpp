@@ -76,11 +76,11 @@ std::size_t InputFile::fetch(void* to, std::size_t count) {
 }
 
 bool InputFile::fill(std::size_t least) {
-    const std::size_t held = buffer_end_ - buffer_begin_;
-    if (held >= least) return true;
-    std::memmove(buffer_.get(), buffer_.get() + buffer_begin_, held);
+    const std::size_t count = buffer_end_ - buffer_begin_;
+    if (count >= least) return true;
+    std::memmove(buffer_.get(), buffer_.get() + buffer_begin_, count);
     buffer_begin_ = 0;
-    buffer_end_ = held;
+    buffer_end_ = count;
     while (buffer_end_ < least) {
         const std::size_t got = fetch(buffer_.get() + buffer_end_, kBufferBytes - buffer_end_);
         if (got == 0) return false;

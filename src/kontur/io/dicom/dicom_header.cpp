@@ -52,10 +52,10 @@ void read_transfer_syntax(DcmFileFormat& file, DicomHeader& header) {
 void check_pixels_fit(const DicomHeader& header, const DcmXfer& syntax, std::int64_t bits_allocated) {
     if (syntax.isEncapsulated() || syntax.getStreamCompression() != ESC_none) return;
     const auto claimed = header.frames * header.rows * header.columns * (std::min<std::int64_t>(bits_allocated, 64) / 8);
-    const auto held = static_cast<std::int64_t>(std::filesystem::file_size(header.path));
-    if (claimed > held)
+    const auto file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(header.path));
+    if (claimed > file_bytes)
         throw corrupt("the header claims " + std::to_string(claimed) + " bytes of pixels, the file has " +
-                      std::to_string(held) + " bytes");
+                      std::to_string(file_bytes) + " bytes");
 }
 
 /// The first element without which nobody knows where the image lies; "": all are there.

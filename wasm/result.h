@@ -22,7 +22,7 @@
 namespace kontur::wasm {
 
 /// Arrays of numbers as JavaScript takes them, and what else a call made.
-struct Made {
+struct Result {
     nlohmann::json about;  ///< answered as text
     std::string text{};
     std::vector<std::uint8_t> voxels{};  ///< the bytes of a mask's or an image's samples

@@ -8,6 +8,7 @@
 
 #include "contour_files.h"
 #include "dicom_output.h"
+#include "facts.h"
 #include "frames_picture.h"
 #include "input_digests.h"
 #include "kontur/base/counted.h"

@@ -90,6 +90,8 @@ Keywords<FitOptions> fit_keywords() {
                "diameter.")
         .field("most_solves", &FitOptions::most_solves,
                "At most so many with all points, while other bounds should be held than were; 1: whatever is held.")
+        .field("bounds_tolerance_mm", &FitOptions::bounds_tolerance_mm,
+               "By so much f may leave a bound without being solved again; None: twice tolerance_mm.")
         .field("normal_offset_mm", &FitOptions::normal_offset_mm,
                "Length of the normal constraints; None: 1.35 % of the drawing's diameter, in-plane normals 0.45 %.")
         .field("both_sides", &FitOptions::both_sides,

@@ -21,13 +21,10 @@
 #include "kontur/labels/scattered.h"
 #include "kontur/labels/shape_interpolation.h"
 #include "kontur/labels/structure_gaps.h"
-#include "kontur/segment.h"
+#include "kontur/object_fit.h"
 
 namespace kontur {
 namespace {
-
-// Of the solver, in voxels: small labels take a quarter less time than with its own, and Dice changes by .0002.
-constexpr double kTolerance = 0.01;
 
 /// In gaps between slices.
 double beyond(FillEnds ends) {
@@ -39,7 +36,7 @@ double beyond(FillEnds ends) {
 double variance_left(const ImageReport& image) { return image.share_left() * image.share_left(); }
 
 /// What one fit leaves.
-struct ObjectFit {
+struct FilledObject {
     const PaintedObject* object = nullptr;
     IndexBox range;
     ImplicitFunction function;
@@ -54,7 +51,7 @@ public:
 
     /// Fits one object and gives it what nobody painted and no deeper one has. Returns what became of the image.
     ImageReport add(const PaintedObject& object, const IndexBox& range) {
-        Segmentation result = fit(object, range, image_);
+        ObjectFit result = fit_object(object, {grid(), range}, image_, fit_options(), work_);
         follow_shapes(object, range, result);
         std::map<std::int64_t, std::vector<std::size_t>> contested;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -63,9 +60,9 @@ public:
             if (other != 0) contested[other].push_back(n);
             else map_.set_label(n, object.label);
         });
-        fitted_.emplace(object.label, ObjectFit{&object, range, result.function});
+        fitted_.emplace(object.label, FilledObject{&object, range, result.function});
         for (const auto& [other, voxels] : contested) contest(object.label, other, voxels);
-        return result.report.image;
+        return result.image;
     }
 
     /// What the union of labels that touch holds and none of them has goes to the one that is nearest.
@@ -92,30 +89,7 @@ public:
     Image take() { return map_.take(); }
 
 private:
-    Segmentation segment_object(const PaintedObject& object, const IndexBox& range, const Image* image,
-                                const std::optional<double>& smoothing) const {
-        SegmentOptions segmenting;
-        segmenting.use_image = options_.use_image;
-        segmenting.max_memory_mb = options_.max_memory_mb;
-        segmenting.smoothing = smoothing;
-        segmenting.drawn_on = grid();
-        segmenting.tolerance_mm = kTolerance * smallest(grid().spacing_mm());
-        return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), image, segmenting, work_);
-    }
-
-    /// With the image through all outlines: there it is learnt what the border looks like.
-    Segmentation fit(const PaintedObject& object, const IndexBox& range, const Image* image) const {
-        ImageReport image_report;
-        if (image) {
-            Segmentation with_image = segment_object(object, range, image, {});
-            if (with_image.report.image.verdict == ImageVerdict::used) return with_image;
-            image_report = std::move(with_image.report.image);
-        }
-        const ContourSet contours = contours_of(object, options_.smoothing_voxels);
-        Segmentation alone = segment_object(object, range, nullptr, outline_smoothing(object, contours));
-        alone.report.image = std::move(image_report);
-        return alone;
-    }
+    ObjectFitOptions fit_options() const { return {options_.smoothing_voxels, options_.use_image, options_.max_memory_mb}; }
 
     /// Calls visit(index, offset), both of the image, for the voxels of a mask on a range.
     template <class Visit>
@@ -129,7 +103,7 @@ private:
 
     /// Where the fit and the shape-based interpolation of parallel slices differ, the weighted mean of the depths in both
     /// counts.
-    void follow_shapes(const PaintedObject& object, const IndexBox& range, Segmentation& result) const {
+    void follow_shapes(const PaintedObject& object, const IndexBox& range, ObjectFit& result) const {
         const int axis = object.only_axis();
         if (axis < 0 || options_.shape_weight == 0) return;
         for (std::size_t n = 1; n < object.slices.size(); ++n) {
@@ -144,7 +118,7 @@ private:
         const PaintedSlice &low, &high;
     };
 
-    void follow_shape(const SlicePair& pair, const IndexBox& range, Segmentation& result) const {
+    void follow_shape(const SlicePair& pair, const IndexBox& range, ObjectFit& result) const {
         const auto& [object, low, high] = pair;
         const ShapeInterpolation shape(object.grid, low, high);
         const auto [u, v] = slice_axes(low.axis);
@@ -164,7 +138,7 @@ private:
                     places.push_back(grid().center_mm(in_image.i, in_image.j, in_image.k));
                     depths.push_back(depth);
                 }
-        const double share = options_.shape_weight * shape.trust() * variance_left(result.report.image);
+        const double share = options_.shape_weight * shape.trust() * variance_left(result.image);
         const std::vector<double> fit_mm = depths_mm(result.function, places, work_);
         for (std::size_t n = 0; n < differing.size(); ++n) {
             const double weight = std::lerp(share, 1.0, depths[n].belief);
@@ -197,7 +171,7 @@ private:
     };
 
     Gaps gaps_in_fit(const PaintedObject& all, const IndexBox& range) const {
-        Segmentation result = segment_object(all, range, nullptr, {});
+        ObjectFit result = fit_outlines(all, {grid(), range}, {}, fit_options(), work_);
         follow_shapes(all, range, result);
         Gaps gaps;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -252,7 +226,7 @@ private:
     const Image* image_;
     FillOptions options_;
     const Work& work_;
-    std::map<std::int64_t, ObjectFit> fitted_;
+    std::map<std::int64_t, FilledObject> fitted_;
     std::int64_t contested_ = 0, closed_ = 0;
 };
 

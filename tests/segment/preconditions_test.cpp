@@ -185,6 +185,7 @@ TEST(Preconditions, OfFitting) {
     const std::function<void(const FitOptions&)> call = [](const FitOptions& o) { fit(prepared(), o); };
     add<FitOptions>(rows, "rounds", &FitOptions::rounds, {-1}, call, "rounds is -1");
     add<FitOptions>(rows, "most_solves", &FitOptions::most_solves, {0, -1}, call, "solves with all points is");
+    add<FitOptions>(rows, "bounds", &FitOptions::bounds_tolerance_mm, kBelow0, call, "the bounds' tolerance");
     add<FitOptions>(rows, "start_smoothing", &FitOptions::start_smoothing, kBelow0, call, "smoothing");
     add<FitOptions>(rows, "smoothing_factor", &FitOptions::smoothing_factor, kBelow0, call, "factor");
     add<FitOptions>(rows, "least_slope", &FitOptions::least_slope, {0, -0.1, 1.1, kNan}, call, "least slope");

@@ -180,7 +180,8 @@ private:
         PlaceOptions placing = place_;
         placing.slope_noise *= std::sqrt(share(points));
         solve_for(points, pick(result_.slopes, part.numbers), placing, solving);
-        return !is_last && bounds_.update(result_.function, 2 * *solving.tolerance_mm, held_counts, work_);
+        const double counts_mm = tolerance_factor * *options_.bounds_tolerance_mm;
+        return !is_last && bounds_.update(result_.function, counts_mm, held_counts, work_);
     }
 
     /// Solves for points with these slopes, with the bounds that are held.
@@ -258,6 +259,7 @@ void check_fit_options(const FitOptions& options, std::size_t points) {
                     fmt::format("the least slope is {:g}; it must be in (0, 1]", options.least_slope));
     check_above_0("the early tolerance's factor", options.early_tolerance_factor);
     if (options.line_tolerance_mm) check_not_below_0("the lines' tolerance", *options.line_tolerance_mm, " mm");
+    if (options.bounds_tolerance_mm) check_not_below_0("the bounds' tolerance", *options.bounds_tolerance_mm, " mm");
     if (options.tilt_points < 1)
         throw Error(ErrorKind::invalid_input, "the tilts are to be found from 0 points; at least 1 is needed");
     if (!options.start_slopes.empty()) check_slopes(options.start_slopes, points);
@@ -275,6 +277,7 @@ FitOptions resolved(FitOptions options, double diameter_mm) {
     options.merge_distance_mm = options.merge_distance_mm.value_or(kMergeFraction * diameter_mm);
     if (!is_surface) options.solve.smoothing = options.solve.smoothing.value_or(0.0);
     options.solve = resolved(options.solve, diameter_mm);
+    options.bounds_tolerance_mm = options.bounds_tolerance_mm.value_or(2 * *options.solve.tolerance_mm);
     const bool may_leave_out = is_surface && *options.solve.smoothing > 0;
     options.line_tolerance_mm = options.line_tolerance_mm.value_or(may_leave_out ? kLineTolerance * diameter_mm : 0);
     check_place_options(place_options(options));

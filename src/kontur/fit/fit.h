@@ -28,6 +28,9 @@ struct FitOptions {
     /// surface normals and smoothing, else 0.
     std::optional<double> line_tolerance_mm{};
     int most_solves = 2;  ///< with all points, while other bounds should be held than were; 1: whatever is held
+    /// By so much f may leave a bound, or be held where it would keep one: it is not solved again for less. Unset: twice the
+    /// solver's tolerance.
+    std::optional<double> bounds_tolerance_mm{};
     /// Length d > 0 of the normal constraints; unset: 1.35 % of the drawing's diameter, with in-plane normals 0.45 %.
     std::optional<double> normal_offset_mm{};
     std::optional<bool> both_sides{};  ///< normal constraints inside as well as outside; unset: with surface normals

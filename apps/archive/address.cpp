@@ -89,6 +89,12 @@ void check_names_study(const Address& address) {
     if (address.study_uid.empty()) refuse(fmt::format("{0} names no study; kontur find {0} lists them", address.text()));
 }
 
+void check_is_service(const Address& address) {
+    if (!address.study_uid.empty())
+        refuse(fmt::format("--archive {} names a study, which the files name themselves; the service is {}", address.text(),
+                           address.service));
+}
+
 std::string Address::text() const {
     std::string text = service;
     if (!study_uid.empty()) text += "/studies/" + study_uid;

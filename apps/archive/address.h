@@ -32,6 +32,9 @@ Address parse_address(std::string_view word);
 /// Throws Error(invalid_input) for the address of a service.
 void check_names_study(const Address& address);
 
+/// Throws Error(invalid_input) for the address of something in a service.
+void check_is_service(const Address& address);
+
 /// Digits and dots, 64 at most (DICOM PS3.5, 9.1).
 bool is_uid(std::string_view text);
 

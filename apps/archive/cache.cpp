@@ -41,6 +41,29 @@ fs::path path_of(const fs::path& folder) {
     return files.size() == 1 ? files.front() : folder;
 }
 
+std::string in_words(const Series& series) {
+    return fmt::format("{} ({}{}{})", series.uid, series.modality, series.description.empty() ? "" : ", ",
+                       series.description);
+}
+
+/// The one series of images that a study has.
+std::string only_series(const std::vector<Series>& all, const Address& study) {
+    std::vector<const Series*> images;
+    for (const Series& one : all)
+        if (archive::shows_images(one)) images.push_back(&one);
+    if (images.size() == 1) return images.front()->uid;
+    constexpr std::size_t kMostListed = 8;
+    std::string listed;
+    for (std::size_t n = 0; n < std::min(images.size(), kMostListed); ++n)
+        listed += (n > 0 ? ", " : "") + in_words(*images[n]);
+    if (images.size() > kMostListed) listed += ", ...";
+    throw Error(ErrorKind::invalid_input,
+                images.empty() ? fmt::format("{} has no series of images", study.text())
+                               : fmt::format("{} has {} series of images; choose one with --series or by its address "
+                                             "(.../series/UID): {}",
+                                             study.text(), images.size(), listed));
+}
+
 }  // namespace
 
 fs::path fetch_to_cache(Http& http, const Address& series, const Work& work) {
@@ -60,6 +83,19 @@ void fetch_drawings_to_cache(Http& http, const std::vector<Series>& all, const A
     for (const Series& one : all)
         if (one.modality == "SEG" || one.modality == "RTSTRUCT")
             fetch_to_cache(http, {study.service, study.study_uid, one.uid, ""}, work);
+}
+
+fs::path fetch_what_is_read(Http& http, Address address, const std::optional<std::string>& series_uid, bool with_drawings,
+                            const Work& work) {
+    check_names_study(address);
+    if (!address.instance_uid.empty()) return fetch_object_to_cache(http, address, work);
+    const bool is_study = address.series_uid.empty();
+    if (is_study || with_drawings) {
+        const std::vector<Series> all = find_series(http, address.study_uid, work);
+        if (is_study) address.series_uid = series_uid ? *series_uid : only_series(all, address);
+        if (with_drawings) fetch_drawings_to_cache(http, all, address, work);
+    }
+    return fetch_to_cache(http, address, work);
 }
 
 bool came_from(const Address& service, const fs::path& path) {

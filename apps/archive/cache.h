@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "archive/query.h"
@@ -17,6 +19,13 @@ std::filesystem::path fetch_to_cache(Http& http, const Address& series, const Wo
 
 /// Those series that hold what was drawn, into folders beside the images, where `kontur open` looks for them.
 void fetch_drawings_to_cache(Http& http, const std::vector<Series>& all, const Address& study, const Work& work);
+
+/// What a program reads of an address in place of a path: an object, a series, of a study the series `series_uid`, or
+/// without one its only series of images. With `with_drawings` the study's structure sets and segmentations come, too.
+/// Throws as `fetch_series`, and Error(invalid_input) for a service's address and for several series of images, which it
+/// lists.
+std::filesystem::path fetch_what_is_read(Http& http, Address address, const std::optional<std::string>& series_uid,
+                                         bool with_drawings, const Work& work);
 
 /// Whether a path lies among what came from this service.
 bool came_from(const Address& service, const std::filesystem::path& path);

@@ -206,6 +206,11 @@ private:
 
 fs::path part_folder(const fs::path& folder) { return fs::path(folder.string() + ".part"); }
 
+std::string how_far(const FetchedSeries& series, const fs::path& folder) {
+    return fmt::format("{} of {} objects are in {}, and the same again goes on from there", series.arrived, series.objects,
+                       part_folder(folder).string());
+}
+
 void fetch_series(Http& http, const Address& series, const fs::path& folder, FetchedSeries& progress, const Work& work) {
     const fs::path part = part_folder(folder);
     const bool is_new = is_empty_or_missing(folder) && is_empty_or_missing(part);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "archive/http.h"
 
@@ -18,6 +19,9 @@ struct FetchedSeries {
 
 /// Where a series lies until it is whole: the folder's name and ".part".
 std::filesystem::path part_folder(const std::filesystem::path& folder);
+
+/// "3 of 9 objects are in FOLDER.part, and the same again goes on from there".
+std::string how_far(const FetchedSeries& series, const std::filesystem::path& folder);
 
 /// Fetches what is missing of a series into `part_folder(folder)`, as UID.dcm, then renames that to `folder`: this exists
 /// only when whole. What came before an error stays, and the next call goes on from there; `progress` is kept true all the

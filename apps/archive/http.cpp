@@ -7,6 +7,7 @@
 #include <array>
 #include <exception>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include "archive/libcurl.h"
@@ -127,6 +128,15 @@ struct Http::Transfer {
         return static_cast<Transfer*>(self)->work.stop.stop_requested() ? 1 : 0;
     }
 };
+
+Access read_access(const std::filesystem::path& credentials, const std::filesystem::path& ca, int give_up_s) {
+    std::error_code ignored;
+    if (!ca.empty() && !std::filesystem::is_regular_file(ca, ignored))
+        throw Error(ErrorKind::io, fmt::format("cannot read --ca {}: it is no file", ca.string()));
+    if (give_up_s < 1)
+        throw Error(ErrorKind::invalid_input, fmt::format("--give-up-s is {} s, but must be at least 1", give_up_s));
+    return {read_credentials(credentials), ca, give_up_s};
+}
 
 Http::Http(const Address& service, const Access& access) : service_{service.service, "", "", ""}, access_(access) {
     if (!access.credentials.is_empty() && !service.is_encrypted() && !service.is_this_machine())

@@ -23,6 +23,10 @@ struct Access {
     int give_up_s = 60;        ///< after so long with less than 1 kB/s
 };
 
+/// Throws what `read_credentials` throws, Error(io) for a file of certificates that is not there, and Error(invalid_input)
+/// for less than a second.
+Access read_access(const std::filesystem::path& credentials, const std::filesystem::path& ca, int give_up_s);
+
 struct Request {
     std::string path;                  ///< behind the service, with its query: "/studies?limit=10"
     std::vector<std::string> headers;  ///< "Name: value"

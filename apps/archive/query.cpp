@@ -145,6 +145,16 @@ void sort_by_number(std::vector<Entry>& entries) {
 
 }  // namespace
 
+void check_can_be_listed(const Address& address, const StudyFilter& filter) {
+    if (!address.instance_uid.empty())
+        throw Error(ErrorKind::invalid_input, fmt::format("{0} is one object; kontur fetch {0} fetches it", address.text()));
+    const bool has_filter =
+        !(filter.name + filter.patient_id + filter.date + filter.modality).empty() || filter.most != StudyFilter{}.most;
+    if (!address.study_uid.empty() && has_filter)
+        throw Error(ErrorKind::invalid_input,
+                    "--name, --id, --date, --modality and --most choose studies; the address names one already");
+}
+
 Studies find_studies(Http& http, const StudyFilter& filter, const Work& work) {
     Studies studies;
     for (const json& entry : ask_once(http, query_of(filter), http.service().service, work))
@@ -168,6 +178,14 @@ std::vector<Series> find_series(Http& http, const std::string& study_uid, const 
                        .instances = count_of(entry, "00201209")});
     if (all.empty()) miss(http, {http.service().service, study_uid, "", ""});
     sort_by_number(all);
+    return all;
+}
+
+std::vector<Series> find_series_of(Http& http, const Address& study, const std::string& modality, const Work& work) {
+    std::vector<Series> all = find_series(http, study.study_uid, work);
+    if (!modality.empty()) std::erase_if(all, [&](const Series& one) { return one.modality != modality; });
+    if (all.empty())
+        throw Error(ErrorKind::invalid_input, fmt::format("{} has no series of --modality {}", study.text(), modality));
     return all;
 }
 

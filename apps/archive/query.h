@@ -41,11 +41,16 @@ struct Studies {
     bool has_more = false;     ///< than the filter takes
 };
 
+/// Throws Error(invalid_input) for the address of an object, and for a filter of studies where the address names one.
+void check_can_be_listed(const Address& address, const StudyFilter& filter);
+
 /// All throw what Http throws; Error(invalid_input) for a filter that is none and for what is not there, Error(corrupt_file)
 /// for an answer that is no DICOM JSON (PS3.18, F), Error(too_large) for more than 100,000 entries.
 Studies find_studies(Http& http, const StudyFilter& filter, const Work& work);
 /// By number, then UID.
 std::vector<Series> find_series(Http& http, const std::string& study_uid, const Work& work);
+/// Those of a modality, at least one; "": all.
+std::vector<Series> find_series_of(Http& http, const Address& study, const std::string& modality, const Work& work);
 /// By number, then UID; series and study as `address` names them.
 std::vector<Instance> find_instances(Http& http, const Address& address, const Work& work);
 

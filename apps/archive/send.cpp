@@ -12,6 +12,7 @@
 #include "archive/dicom_json.h"
 #include "archive/query.h"
 #include "archive/refusal.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 
 namespace kontur::archive {
@@ -122,6 +123,20 @@ Answer store(Http& http, const fs::path& file, const std::string& study_uid, con
     return http.ask(request, work);
 }
 
+std::string in_words(const Sent& sent, const std::string& study) {
+    switch (sent.outcome) {
+        case Outcome::stored:
+            return "stored in " + study;
+        case Outcome::stored_with_doubt:
+            return fmt::format("stored in {}, but {}", study, sent.reason);
+        case Outcome::was_there:
+            return fmt::format("was there already in {}; nothing was sent", study);
+        case Outcome::refused:
+            break;
+    }
+    return "refused: " + sent.reason;
+}
+
 bool is_json(const Answer& answer) { return answer.content_type.find("json") != std::string::npos; }
 
 }  // namespace
@@ -140,6 +155,31 @@ Sent send_object(Http& http, const fs::path& file, const DicomObject& object, co
     return has_instance(http, object.study_uid, object.instance_uid, work)
                ? Sent{}
                : Sent{Outcome::refused, "the archive answers 200, but does not list it"};
+}
+
+std::string SentFile::text() const { return fmt::format("{}: {}", file.string(), in_words(sent, study)); }
+
+std::vector<Error> send_files(Http& http, const std::vector<fs::path>& files,
+                              const std::function<void(const SentFile&)>& on_sent, const Work& work) {
+    std::vector<DicomObject> objects;
+    for (const fs::path& file : files) objects.push_back(dicom_object(file));
+    std::vector<Error> failures;
+    for (std::size_t n = 0; n < files.size(); ++n) try {
+            const std::string study = Address{http.service().service, objects[n].study_uid, "", ""}.text();
+            const SentFile one{files[n], study, send_object(http, files[n], objects[n], work)};
+            if (one.sent.outcome == Outcome::refused) failures.emplace_back(ErrorKind::io, one.text());
+            else on_sent(one);
+        } catch (const Error& error) {
+            if (error.kind() == ErrorKind::cancelled) throw;
+            failures.push_back(error);
+        }
+    return failures;
+}
+
+Error not_stored(const std::vector<Error>& failures, std::size_t files) {
+    return {failures.front().kind(),
+            fmt::format("{} of {} were not stored; the same again sends them, and leaves what is there", failures.size(),
+                        counted(static_cast<std::int64_t>(files), "object"))};
 }
 
 }  // namespace kontur::archive

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
-#include <vector>
-
 #include "archive/query.h"
 #include "commands.h"
 #include "kontur/base/counted.h"
@@ -19,29 +16,20 @@ using archive::Address;
 
 void fetch_one(archive::Http& http, const Address& series, const fs::path& folder, Console& console) {
     archive::FetchedSeries progress;
-    const auto how_far = [&] {
-        return fmt::format("{} of {} objects are in {}, and the same command goes on from there", progress.arrived,
-                           progress.objects, archive::part_folder(folder).string());
-    };
     try {
         archive::fetch_series(http, series, folder, progress, console.work());
     } catch (const Error& error) {
         if (progress.arrived == 0) throw;
-        if (error.kind() == ErrorKind::cancelled) throw EndedEarly("interrupted; " + how_far(), exit_code(error.kind()));
-        throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_far()));
+        if (error.kind() == ErrorKind::cancelled)
+            throw EndedEarly("interrupted; " + how_far(progress, folder), exit_code(error.kind()));
+        throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_far(progress, folder)));
     }
     console.print(fmt::format("{}: {}\n", folder.string(), counted(progress.objects, "object")));
 }
 
 /// Each series into a folder of its own.
 void fetch_study(archive::Http& http, const Address& study, const FetchCommand& command, Console& console) {
-    std::vector<archive::Series> all = archive::find_series(http, study.study_uid, console.work());
-    if (!command.modality.empty())
-        std::erase_if(all, [&](const archive::Series& one) { return one.modality != command.modality; });
-    if (all.empty())
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("{} has no series of --modality {}", study.text(), command.modality));
-    for (const archive::Series& one : all)
+    for (const archive::Series& one : archive::find_series_of(http, study, command.modality, console.work()))
         fetch_one(http, {study.service, study.study_uid, one.uid, ""}, command.output / one.uid, console);
 }
 

@@ -10,7 +10,6 @@
 #include "commands.h"
 #include "facts.h"
 #include "kontur/base/counted.h"
-#include "kontur/base/error.h"
 
 namespace kontur::app {
 namespace {
@@ -93,14 +92,7 @@ Listing list_instances(archive::Http& http, const Address& series, Console& cons
 
 void run(const FindCommand& command, Console& console) {
     const Address address = archive::parse_address(command.address);
-    if (!address.instance_uid.empty())
-        throw Error(ErrorKind::invalid_input, fmt::format("{0} is one object; kontur fetch {0} fetches it", address.text()));
-    const archive::StudyFilter& filter = command.filter;
-    const bool has_filter = !(filter.name + filter.patient_id + filter.date + filter.modality).empty() ||
-                            filter.most != archive::StudyFilter{}.most;
-    if (!address.study_uid.empty() && has_filter)
-        throw Error(ErrorKind::invalid_input,
-                    "--name, --id, --date, --modality and --most choose studies; the address names one already");
+    archive::check_can_be_listed(address, command.filter);
     archive::Http http(address, access_of(command.access));
     const Listing listing = address.study_uid.empty()    ? list_studies(http, command, console)
                             : address.series_uid.empty() ? list_series(http, address, console)

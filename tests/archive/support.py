@@ -45,10 +45,10 @@ def values(**tags):
 
 
 class Archive:
-    """One study in memory. `fault` says what goes wrong; `requests` are all that came: method, path, headers."""
+    """One study in memory. `fault` says what goes wrong; `requests` are all that came: method, path, headers; `queries` theirs."""
 
     def __init__(self, files=(), context=None):
-        self.fault, self.requests, self.stored, self.counts = "", [], {}, True
+        self.fault, self.requests, self.queries, self.stored, self.counts = "", [], [], {}, True
         self.objects = {}
         for file in files:
             header = pydicom.dcmread(file, stop_before_pixels=True)
@@ -107,6 +107,7 @@ class Archive:
     def answer(self, handler, body):
         path, _, query = handler.path.removeprefix("/dicom-web").removeprefix("/moved").partition("?")
         self.requests.append((handler.command, path, dict(handler.headers)))
+        self.queries.append(query)
         misbehave = getattr(self, "do_" + self.fault.replace("-", "_"), None)
         if misbehave and misbehave(handler, path):
             return

@@ -113,6 +113,10 @@ Study study_of(const json& entry) {
             .instances = count_of(entry, "00201208")};
 }
 
+Instance instance_of(const json& entry) {
+    return {.uid = value_of(entry, "00080018"), .number = value_of(entry, "00200013")};
+}
+
 std::string query_of(const StudyFilter& filter) {
     std::string name = filter.name;
     if (!name.empty() && name.find_first_of("*?") == std::string::npos) name += '*';
@@ -192,10 +196,19 @@ std::vector<Series> find_series_of(Http& http, const Address& study, const std::
 std::vector<Instance> find_instances(Http& http, const Address& address, const Work& work) {
     std::vector<Instance> all;
     for (const json& entry : ask_all(http, level_path(address.study_uid, address.series_uid), "00080018", work))
-        all.push_back({.uid = value_of(entry, "00080018"), .number = value_of(entry, "00200013")});
+        all.push_back(instance_of(entry));
     if (all.empty()) miss(http, {address.service, address.study_uid, address.series_uid, ""});
     sort_by_number(all);
     return all;
+}
+
+std::optional<Instance> find_numbered(Http& http, const Address& series, std::int64_t number, const Work& work) {
+    const std::string text = fmt::format("{}", number);
+    const std::string path =
+        fmt::format("{}?limit=1&InstanceNumber={}", level_path(series.study_uid, series.series_uid), text);
+    for (const json& entry : ask_once(http, path, series.text(), work))
+        if (const Instance found = instance_of(entry); found.number == text && is_uid(found.uid)) return found;
+    return std::nullopt;
 }
 
 std::int64_t count_instances(Http& http, const Address& address, const Work& work) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,9 @@ std::vector<Series> find_series(Http& http, const std::string& study_uid, const 
 std::vector<Series> find_series_of(Http& http, const Address& study, const std::string& modality, const Work& work);
 /// By number, then UID; series and study as `address` names them.
 std::vector<Instance> find_instances(Http& http, const Address& address, const Work& work);
+
+/// The object of this number, where the archive finds it so: a list of all may take seconds.
+std::optional<Instance> find_numbered(Http& http, const Address& series, std::int64_t number, const Work& work);
 
 /// How many objects a series has, which archives know sooner than which; 0: it does not say.
 std::int64_t count_instances(Http& http, const Address& address, const Work& work);

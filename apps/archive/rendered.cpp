@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "archive/query.h"
@@ -15,11 +16,18 @@ namespace {
 constexpr std::uint64_t kMostPictureBytes = std::uint64_t{4} << 20;
 constexpr int kMostPictureSeconds = 60, kPixels = 112;
 
+/// By the number that it has in a series that begins with 1, else of the list.
+std::string middle_of(Http& http, const Address& series, const Work& work) {
+    if (const std::int64_t count = count_instances(http, series, work); count > 0)
+        if (const auto found = find_numbered(http, series, (count + 1) / 2, work)) return found->uid;
+    const std::vector<Instance> all = find_instances(http, series, work);
+    return all[all.size() / 2].uid;
+}
+
 }  // namespace
 
 std::string picture_of(Http& http, const Address& series, const Work& work) {
-    const std::vector<Instance> all = find_instances(http, series, work);
-    const Address middle{series.service, series.study_uid, series.series_uid, all[all.size() / 2].uid};
+    const Address middle{series.service, series.study_uid, series.series_uid, middle_of(http, series, work)};
     Request request;
     request.path = fmt::format("{}/rendered?viewport={},{}", middle.text().substr(middle.service.size()), kPixels, kPixels);
     request.headers = {"Accept: image/jpeg"};

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """find, fetch, send and segment against an archive that misbehaves: one sentence, a documented exit code, nothing half on the disk."""
+import os
 import signal
 import subprocess
 import time
+import urllib.request
 
 import pydicom
 import pytest
@@ -64,6 +66,25 @@ def test_segment_makes_nothing_of_a_series_that_does_not_come(tmp_path, archive,
     assert result.returncode in (INPUT, CORRUPT, IO), result
     assert "Traceback" not in result.stderr and not (tmp_path / "mask.nii.gz").exists()
     assert [path for path in (tmp_path / "cache").rglob(archive.series)] == []
+
+
+@pytest.mark.parametrize(("counts", "first"), [(True, 1), (True, 301), (False, 1)])
+def test_a_picture_is_of_the_middle_and_needs_no_list_where_objects_count_from_one(tmp_path, archive, counts, first):
+    """Archives take seconds to list 600 objects."""
+    archive.counts, archive.first_number = counts, first
+    command = [KONTUR, "open", "--archive", archive.address, "--no-browser", "--token", "secret", "--timeout", "60"]
+    environment = {name: value for name, value in os.environ.items() if "proxy" not in name.lower()} | {"XDG_DATA_HOME": str(tmp_path)}
+    viewer = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
+    page = viewer.stdout.readline().strip().split("#")[0].rstrip("/")
+    host = page.removeprefix("http://").split("/")[0]
+    asked = urllib.request.Request(f"http://{host}/api/archive/picture?study={archive.study}&series={archive.series}",
+                                   headers={"Origin": f"http://{host}", "Authorization": "Bearer secret"})
+    with urllib.request.build_opener(urllib.request.ProxyHandler({})).open(asked, timeout=30) as answer:
+        assert answer.read() == b"\xff\xd8\xff" + list(archive.objects)[4].encode()
+    lists = [query for (_, path, _), query in zip(archive.requests, archive.queries) if path.endswith("/instances")]
+    assert (lists == ["limit=1&InstanceNumber=5"]) == (counts and first == 1), lists
+    viewer.send_signal(signal.SIGINT)
+    viewer.communicate(timeout=30)
 
 
 def test_an_early_end_goes_on_where_it_was(tmp_path, archive):

@@ -23,6 +23,9 @@ ROOT = pathlib.Path(__file__).parents[2]
 PLUGIN = pathlib.Path("/usr/share/orthanc/plugins/libOrthancDicomWeb.so")
 BORDER = "a-border"
 JSON = "application/dicom+json"
+NAMES = {"StudyInstanceUID": "0020000D", "SeriesInstanceUID": "0020000E", "SOPInstanceUID": "00080018", "Modality": "00080060",
+         "InstanceNumber": "00200013", "NumberOfSeriesRelatedInstances": "00201209"}
+FILTERS = {"StudyInstanceUID", "SOPInstanceUID", "InstanceNumber"}
 
 
 def kontur(*words, cache=None, timeout=120, **environment):
@@ -40,8 +43,7 @@ def make_series(folder):
 
 def values(**tags):
     """An object of DICOM JSON: tags by their keyword."""
-    names = {"StudyInstanceUID": "0020000D", "SeriesInstanceUID": "0020000E", "SOPInstanceUID": "00080018", "Modality": "00080060", "InstanceNumber": "00200013", "NumberOfSeriesRelatedInstances": "00201209"}
-    return {names[name]: {"vr": "UI", "Value": [value]} for name, value in tags.items()}
+    return {NAMES[name]: {"vr": "UI", "Value": [value]} for name, value in tags.items()}
 
 
 class Archive:
@@ -49,6 +51,7 @@ class Archive:
 
     def __init__(self, files=(), context=None):
         self.fault, self.requests, self.queries, self.stored, self.counts = "", [], [], {}, True
+        self.first_number = 1
         self.objects = {}
         for file in files:
             header = pydicom.dcmread(file, stop_before_pixels=True)
@@ -101,7 +104,7 @@ class Archive:
             count = {"NumberOfSeriesRelatedInstances": str(len(self.objects))} if self.counts else {}
             return [values(SeriesInstanceUID=self.series, Modality=self.modality, **count)]
         if path in (f"/studies/{self.study}/series/{self.series}/instances", f"/studies/{self.study}/instances"):
-            return [values(SOPInstanceUID=uid, InstanceNumber=n + 1) for n, uid in enumerate(self.objects)]
+            return [values(SOPInstanceUID=uid, InstanceNumber=n + self.first_number) for n, uid in enumerate(self.objects)]
         return [] if path.startswith("/studies/") and path.endswith(("/series", "/instances")) else None
 
     def answer(self, handler, body):
@@ -116,11 +119,12 @@ class Archive:
         found = self.listed(path)
         if found is not None:
             terms = dict(term.split("=", 1) for term in query.split("&") if "=" in term)
-            wanted = terms.get("SOPInstanceUID") or terms.get("StudyInstanceUID")
-            if wanted:
-                found = [one for one in found if wanted in json.dumps(one)]
+            for name in FILTERS & set(terms):
+                found = [one for one in found if one.get(NAMES[name], {}).get("Value") in ([terms[name]], [int(terms[name])] if terms[name].isdigit() else None)]
             begin = int(terms.get("offset", 0))
             return self.reply(handler, 200, JSON, json.dumps(found[begin : begin + min(4, int(terms.get("limit", 4)))]).encode())
+        if path.endswith("/rendered"):
+            return self.reply(handler, 200, "image/jpeg", b"\xff\xd8\xff" + path.split("/")[-2].encode())
         uids = [path.split("/")[-1]] if "/instances/" in path else list(self.objects)
         if not path.startswith(f"/studies/{self.study}/series/{self.series}") or not set(uids) <= set(self.objects):
             return self.reply(handler, 404, "text/plain", b"nothing here")

@@ -15,6 +15,28 @@ dice = kontur.compare(made.mask, kontur.make_truth_mask(case.body, case.grid)).d
 print(f"kontur {kontur.__version__}: {made.report.mask_volume_ml:.3f} ml, Dice {dice:.4f}")
 assert dice > 0.95
 
+outer = kontur.derive("PTV = Kidney + 5 mm", {"Kidney": made})["PTV"].mask
+assert outer.volume_ml > 1.3 * made.mask.volume_ml
+print(f"derived: {outer.volume_ml:.3f} ml")
+
+ball = np.sum((np.mgrid[:41, :40, :40] - 20) ** 2, axis=0) < 15**2
+bitten = ball & ~((np.arange(40) > 27) & (abs(np.arange(41) - 20) < 6)[:, None, None])
+grid = kontur.Grid((40, 40, 41), np.eye(4), frame="LPS")
+outline = kontur.trace(kontur.Mask(ball, grid), [kontur.Plane([0, 0, 20], [0, 0, 1])])
+corrected = kontur.correct(kontur.Mask(bitten, grid), outline).mask
+assert corrected.volume_ml > kontur.Mask(bitten, grid).volume_ml
+print(f"corrected: {corrected.volume_ml:.3f} ml")
+
+slices = np.where(np.arange(41)[:, None, None] % 4 == 2, ball, 0).astype(np.uint8)
+filled = kontur.fill_labels(slices, (1, 1, 1))
+assert np.count_nonzero(filled) > 3 * np.count_nonzero(slices)
+print(f"filled: {np.count_nonzero(filled)} voxels")
+
+beats = [kontur.Contour(contour.points, frame=frame) for frame in (1, 3) for contour in case.contours]
+moving = kontur.segment_moving(kontur.ContourSet(beats), case.grid, [1, 2, 3])
+assert len(moving.masks) == 3 and all(mask.volume_ml > 1 for mask in moving.masks)
+print(f"moving: {moving.masks[1].volume_ml:.3f} ml between two frames")
+
 with tempfile.TemporaryDirectory() as folder:
     for name in ("mask.nii.gz", "mask.nrrd", "mask.mha"):
         path = pathlib.Path(folder, name)
@@ -40,3 +62,9 @@ except kontur.UnsupportedError as error:
     print(f"refused: {error}")
 else:
     raise AssertionError("there are no pictures")
+try:  # libcurl is the system's, where it has one
+    kontur.archive.find("http://127.0.0.1:9/dicom-web")
+except (kontur.UnsupportedError, kontur.FileError) as error:
+    print(f"refused: {error}")
+else:
+    raise AssertionError("nobody is there")

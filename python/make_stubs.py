@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the type stubs of kontur, __init__.pyi and stages.pyi, from the module's own docstrings.
+"""Writes the type stubs of kontur, __init__.pyi, stages.pyi and archive.pyi, from the module's own docstrings.
 
 Signatures are those that inspect reads; types are the words of the docstrings' sections "Parameters" and "Returns", and those
 before the colon of an attribute. A word that is not known stops the program with the place where it stands.
@@ -150,7 +150,7 @@ def python_type(words):
         return f"Callable[[{', '.join(python_type(each) for each in taken)}], object]"
     if words in PLAIN:
         return PLAIN[words]
-    if words in kontur.__all__ or words in kontur.stages.__all__:
+    if any(words in module.__all__ for module in (kontur, kontur.stages, kontur.archive)):
         return words
     raise ValueError(f"'{words}' names no type")
 
@@ -297,11 +297,12 @@ def write(path, text):
 
 
 def main(folder):
-    whole = "\n".join([HEAD, "from . import stages as stages", PRIVATE, *stub_lines(kontur)]) + "\n"
+    whole = "\n".join([HEAD, "from . import archive as archive, stages as stages", PRIVATE, *stub_lines(kontur)]) + "\n"
     write(folder / "__init__.pyi", whole)
     names = [name for name in sorted(kontur.__all__) if isinstance(getattr(kontur, name), type)]
     imports = "from . import " + ", ".join([*names, "_Path", "_Stop"])
-    write(folder / "stages.pyi", "\n".join([HEAD, imports, *stub_lines(kontur.stages)]) + "\n")
+    for name, module in (("stages", kontur.stages), ("archive", kontur.archive)):
+        write(folder / f"{name}.pyi", "\n".join([HEAD, imports, *stub_lines(module)]) + "\n")
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 """Smooth 3D organs from a few hand-drawn contours.
 
 Coordinates are millimetres in DICOM's patient frame LPS; arrays over a grid have the shape (z, y, x); lengths carry their unit in
-the name. The stages of `segment` are functions too, in `kontur.stages`.
+the name. The stages of `segment` are functions too, in `kontur.stages`. `kontur.archive` speaks with a PACS.
 
 Research software, not a medical device.
 
@@ -17,7 +17,7 @@ True
 """
 from ._core import *
 from ._core import __version__
-from . import notebook, stages
+from . import archive, notebook, stages
 from .converters import from_nibabel, from_sitk, to_nibabel, to_sitk
 from .errors import (
     CancelledError,
@@ -31,7 +31,7 @@ from .errors import (
     UnsupportedError,
 )
 
-__all__ = sorted(name for name in globals() if not name.startswith("_") and name not in ("converters", "errors", "notebook", "stages"))
+__all__ = sorted(name for name in globals() if not name.startswith("_") and name not in ("archive", "converters", "errors", "notebook", "stages"))
 
 # Where users find them, in messages and in pickles.
 for _name in __all__:

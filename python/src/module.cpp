@@ -2,7 +2,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "bindings.h"
+#include "archive.h"
 
 namespace kontur::python {
 namespace {
@@ -45,6 +45,7 @@ PYBIND11_MODULE(_core, m) {
     });
     m.attr("__version__") = KONTUR_VERSION;
     py::module_ stages = m.def_submodule("_stages");
+    py::module_ archive = m.def_submodule("_archive");
     m.def("_error_kinds", &kontur::python::error_kinds);
     bind_grids(m);
     bind_planes(m);
@@ -78,5 +79,6 @@ PYBIND11_MODULE(_core, m) {
     bind_images(m);
     bind_dicom(m);
     bind_segmentations(m);
+    bind_archive(archive);
     bind_phantom(m, stages);
 }

@@ -17,8 +17,8 @@ NAMES = {"kontur": kontur, "np": numpy}
 
 
 def public():
-    """What `kontur` and `kontur.stages` give, with its name."""
-    for module in (kontur, kontur.stages):
+    """What `kontur` and its modules give, with its name."""
+    for module in (kontur, kontur.stages, kontur.archive):
         for name in module.__all__:
             yield name, getattr(module, name)
 
@@ -26,6 +26,7 @@ def public():
 def documented():
     yield "kontur", kontur
     yield "kontur.stages", kontur.stages
+    yield "kontur.archive", kontur.archive
     for name, value in public():
         yield name, value
         if isinstance(value, type):

@@ -111,6 +111,7 @@ def test_they_name_what_they_need(packages):
     assert "libkontur0.1 (= " in field(packages["libkontur-dev"], "Depends")
     if "python3-kontur" in packages:
         assert "python3-numpy" in field(packages["python3-kontur"], "Depends")
+        assert "libcurl4" in field(packages["python3-kontur"], "Recommends"), "for archives"
 
 
 def test_nothing_points_at_where_it_was_built(tree):

@@ -7,6 +7,7 @@
 #include "kontur/base/error.h"
 #include "kontur/evidence.h"
 #include "kontur/sureness/surface_uncertainty.h"
+#include "true_border.h"
 
 namespace kontur {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 // magnification; finding a plane in the image, or looking at one that is shown; starting a stroke.
 constexpr double kSecondsPerDiameter = 5, kFindPlane_s = 4, kLookAtPlane_s = 2, kStroke_s = 1;
 constexpr double kAcceptable = 0.01;  // of the diameter: a predicted outline no farther off is left as it is
-
-double rounded(double value, double step) { return std::round(value / step) * step; }
 
 }  // namespace
 
@@ -54,7 +53,7 @@ void Annotator::fit() {
     segmentation_.reset();
     try {
         const Image* image = truth_.image() ? &*truth_.image() : nullptr;
-        segmentation_ = segment(contours_, truth_.grid(), image, {.use_image = use_image_}, {.threads = 1});
+        segmentation_ = segment(contours_, truth_.grid(), image, {.use_image = use_image_, .mesh = true}, {.threads = 1});
         evidence_ = gather_evidence(*segmentation_, contours_, {.threads = 1});
     } catch (const Error&) {  // counts as nothing drawn
     }
@@ -71,6 +70,7 @@ nlohmann::ordered_json Annotator::facts(std::size_t sample_step) const {
     facts["dice"] = rounded(truth_.dice(segmentation_->mask), 1e-5);
     facts["verdict"] = name(segmentation_->report.image.verdict);
     facts["different_planes"] = e.plane_count();
+    facts["whole_planes"] = e.whole_planes();
     facts["size_mm"] = e.size_mm;
     facts["area_mm2"] = e.samples.area_mm2();
     facts["volume_mm3"] = e.volume_mm3;
@@ -91,6 +91,7 @@ nlohmann::ordered_json Annotator::facts(std::size_t sample_step) const {
                            rounded(e.samples.areas_mm2[n] / e.samples.area_mm2(), 1e-6)});
     }
     facts["samples"] = std::move(samples);
+    facts["border"] = border_rows(e, *segmentation_->mesh, truth_.border());
     return facts;
 }
 

@@ -50,6 +50,7 @@ Truth::Truth(const std::filesystem::path& folder, Hand hand)
     : name_(folder.filename().string()),
       hand_(hand),
       fine_(read_mask(folder / "fine.nii.gz")),
+      border_(points_on_faces(fine_, 1)),
       distance_(read_image(folder / "distance.nii.gz")),
       to_index_(distance_.grid.index_to_mm.inverse()) {
     if (const std::filesystem::path image = folder / "image.nii.gz"; exists(image)) image_ = read_image(image);

@@ -8,6 +8,7 @@
 
 #include "kontur/shape/contour.h"
 #include "kontur/shape/volume.h"
+#include "true_border.h"
 
 namespace kontur {
 
@@ -29,6 +30,7 @@ public:
     double volume_mm3() const { return volume_mm3_; }
     const Box3& box() const { return box_; }
     const Vec3& centroid() const { return centroid_; }
+    const BorderPoints& border() const { return border_; }
     /// Places inside, for random planes.
     const std::vector<Vec3>& places() const { return places_; }
 
@@ -43,6 +45,7 @@ private:
     std::string name_;
     Hand hand_;
     Mask fine_;
+    BorderPoints border_;
     Image distance_;
     std::optional<Image> image_;
     Affine3 to_index_;

@@ -38,6 +38,20 @@ TEST(ExpectedDice, PlanesToATargetGrowWithIt) {
     EXPECT_GT(planes_to(now, 4, 0.98), planes_to(now, 4, 0.95));
 }
 
+/// What parallel contours tell of the hand can be structure that is finer than their gaps.
+TEST(ExpectedDice, WhatParallelContoursTellOfTheHandLowersTheWorseEndAlone) {
+    const Body ball = test::ball_solid({}, 20);
+    SurfaceEvidence evidence = test::fitted(ball, test::parallel_planes(ball, 6)).evidence;
+    evidence.hand_mm = 0;
+    const ExpectedDice without = expected_dice(evidence);
+    evidence.hand_mm = 1;
+    const ExpectedDice with = expected_dice(evidence);
+    EXPECT_EQ(with.value, without.value);
+    EXPECT_EQ(with.high, without.high);
+    EXPECT_LT(with.low, without.low);
+    EXPECT_GT(with.low, 0);
+}
+
 /// Smooth bodies do better than organs, on which the constants were fitted, but never much worse.
 TEST(ExpectedDice, IsNotFarAboveWhatPhantomsHave) {
     for (const char* name :

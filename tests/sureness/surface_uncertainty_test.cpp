@@ -129,6 +129,54 @@ TEST(SurfaceUncertainty, BandAtAnyPointAgreesWithTheSamples) {
     for (std::size_t n = 0; n < own.size(); ++n) EXPECT_NEAR(asked[n] / own[n], 1, 0.35);  // |grad f| is a mean there
 }
 
+/// Circles around the centre of a ball that are as long as it takes count as one each, in however many planes.
+TEST(SurfaceUncertainty, APlaneCountsAsWholeByTheLengthOfItsLines) {
+    const Body ball = test::ball_solid(kCenter, 20);
+    EXPECT_DOUBLE_EQ(fitted(ball, three_planes(kCenter)).evidence.whole_planes(), 3);
+
+    std::vector<Plane> again = three_planes(kCenter);
+    again.push_back(make_plane(kCenter + Vec3{0, 0, 0.05}, {0, 0, 1}));
+    EXPECT_DOUBLE_EQ(fitted(ball, again).evidence.whole_planes(), 3);
+}
+
+TEST(SurfaceUncertainty, ASmallContourInAFurtherPlaneChangesTheBandLittleAndALargerOneMore) {
+    const Body ball = test::ball_solid(kCenter, 20);
+    SurfaceEvidence evidence = fitted(ball, three_planes(kCenter)).evidence;
+    const double before = half_widths_mm(evidence).front();
+    double last = before;
+    for (const double height_mm : {19.9, 19.5, 18.0, 17.0}) {  // cut off ever larger caps
+        std::vector<Plane> planes = three_planes(kCenter);
+        planes.push_back(make_plane(kCenter + height_mm * normalized({1, 1, 1}), {1, 1, 1}));
+        evidence.lines = DrawnLines(drawn(ball, planes));
+        const double with = half_widths_mm(evidence).front();
+        EXPECT_LT(with, last) << height_mm;
+        if (last == before) {
+            EXPECT_GT(with, 0.96 * before);
+        }
+        last = with;
+    }
+    EXPECT_LT(last, 0.9 * before);
+}
+
+/// What the band is said to hold: of the true surface nine tenths, and parts that few planes missed are in it.
+TEST(SurfaceUncertainty, BandOfThreeOrFourPlanesHoldsTheTrueSurface) {
+    double sum = 0, count = 0;
+    for (const char* name : {"liver_oblique10", "kidney_radial6", "vertebra_parallel11", "metastasis_parallel7_hand"})
+        for (const std::size_t kept : {3u, 4u}) {
+            const PhantomCase one = phantom_case(name);
+            std::vector<Plane> planes;
+            for (std::size_t n = 0; n < kept; ++n)
+                planes.push_back(one.contours.contours[(2 * n + 1) * one.contours.contours.size() / (2 * kept)].plane);
+            const test::Fitted made = fitted(drawn(*one.body, planes), test::coarse(one.grid, 2));
+            const double held = test::held_of_true_surface(made, *one.body, made.mask.grid);
+            EXPECT_GT(held, 0.7) << name << " by " << kept << " planes";
+            sum += held;
+            ++count;
+        }
+    EXPECT_GT(sum / count, 0.88);
+    EXPECT_LT(sum / count, 0.995);
+}
+
 /// Of bodies with exact truth: smoother than organs, so the band is wide for them; it must not be too narrow.
 TEST(SurfaceUncertainty, BandCoversPhantomsDrawnExactlyAndByHand) {
     for (const char* name : {"liver_oblique10", "liver_orthogonal14_hand", "kidney_radial6", "kidney_radial6_hand",

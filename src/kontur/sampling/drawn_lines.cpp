@@ -21,6 +21,12 @@ Vec3 middle_of(const Contour& contour) {
     return sum / static_cast<double>(contour.points.size());
 }
 
+double length_mm(const Contour& contour) {
+    double length = 0;
+    for (std::size_t n = 1; n < contour.points.size(); ++n) length += distance(contour.points[n - 1], contour.points[n]);
+    return contour.closed ? length + distance(contour.points.back(), contour.points.front()) : length;
+}
+
 bool is_same(const Plane& other, const Plane& plane, double distance_mm) {
     return std::abs(dot(other.normal, plane.normal)) > kSamePlaneCosine &&
            std::abs(other.distance_to(plane.origin)) < distance_mm;
@@ -51,7 +57,12 @@ DrawnLines::DrawnLines(const ContourSet& contours) {
         Plane plane = contour.plane;
         plane.origin = middle_of(contour);
         const auto same = [&](const Plane& other) { return is_same(other, plane, kSamePlaneDistance * diameter); };
-        if (std::none_of(planes_.begin(), planes_.end(), same)) planes_.push_back(plane);
+        const auto at = static_cast<std::size_t>(std::find_if(planes_.begin(), planes_.end(), same) - planes_.begin());
+        if (at == planes_.size()) {
+            planes_.push_back(plane);
+            lengths_mm_.push_back(0);
+        }
+        lengths_mm_[at] += length_mm(contour);
     }
     for (const SurfacePoint& point : contours.surface) points.push_back(point.position);
     tree_ = std::make_shared<const PointTree>(std::move(points));

@@ -27,10 +27,13 @@ public:
     /// The planes that closed and open contours lie in, in the order drawn. What lies within 2 degrees and 0.5 % of the
     /// diameter of an earlier plane is the same plane drawn again.
     const std::vector<Plane>& planes() const { return planes_; }
+    /// Of the lines in each of those planes.
+    const std::vector<double>& lengths_mm() const { return lengths_mm_; }
 
 private:
     std::shared_ptr<const PointTree> tree_;
     std::vector<Plane> planes_;
+    std::vector<double> lengths_mm_;
 };
 
 /// The points of a contour's line at most `step_mm` apart, its own among them.

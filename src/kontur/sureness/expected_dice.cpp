@@ -27,10 +27,10 @@ ExpectedDice expected_dice(const SurfaceEvidence& evidence, std::span<const doub
         sum += samples.areas_mm2[n] * std::pow(h, kDice.distance) * std::pow(slope, kDice.slope) * evidence.shares[n];
     }
     const double error = sum * evidence.size_mm / evidence.volume_mm3;
-    const double by_hand =
-        kDice.drawing * samples.area_mm2() * evidence.disagreement_mm / (std::sqrt(2.0) * 2 * evidence.volume_mm3);
-    const double odds = std::exp(kDice.factor) * std::pow(error, kDice.power) + by_hand;
-    return {dice_of(odds), dice_of(kDice.high * odds), dice_of(kDice.low * odds)};
+    const double odds_of_mm = kDice.drawing * samples.area_mm2() / (2 * evidence.volume_mm3);
+    const double odds =
+        std::exp(kDice.factor) * std::pow(error, kDice.power) + odds_of_mm * evidence.disagreement_mm / std::sqrt(2.0);
+    return {dice_of(odds), dice_of(kDice.high * odds + odds_of_mm * evidence.hand_mm), dice_of(kDice.low * odds)};
 }
 
 std::size_t planes_to(const ExpectedDice& now, std::size_t planes_drawn, double target) {

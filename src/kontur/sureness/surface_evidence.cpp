@@ -2,9 +2,11 @@
 #include "kontur/sureness/surface_evidence.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/base/smallest_ball.h"
 #include "kontur/sureness/hand_error.h"
+#include "kontur/sureness/uncertainty_model.h"
 
 namespace kontur {
 namespace {
@@ -18,6 +20,13 @@ double size_mm(const SurfaceSamples& samples, double volume_mm3) {
 }
 
 }  // namespace
+
+double SurfaceEvidence::whole_planes() const {
+    const double whole_mm = kWholeSection * std::sqrt(samples.area_mm2());
+    double planes = 0;
+    for (const double length_mm : lines.lengths_mm()) planes += std::min(1.0, length_mm / whole_mm);
+    return planes;
+}
 
 SurfaceEvidence gather_evidence(SurfaceSamples samples, const ContourSet& contours, const EvidenceFacts& facts,
                                 const Work& work) {

@@ -28,6 +28,9 @@ struct SurfaceEvidence {
     double hand_mm = 0;          ///< of a drawn line, where fewer than four cross: what parallel ones tell (hand_error.h)
 
     std::size_t plane_count() const { return lines.planes().size(); }
+    /// How many planes the lines are worth. One counts as a whole where its lines are as long as kWholeSection times the
+    /// square root of the surface's area, else as the share of that. So a small contour in a further plane changes little.
+    double whole_planes() const;
 };
 
 /// What a caller knows besides samples and contours.

@@ -29,7 +29,8 @@ public:
         }
         mean_slope_ = std::exp(mean_log_slope / area);
         factor_mm_ = size_mm_ * std::exp(kBand.factor) * std::pow(mean_h / area, kBand.mean_distance) *
-                     std::pow(std::pow(area, 1.5) / evidence.volume_mm3, kBand.shape);
+                     std::pow(std::pow(area, 1.5) / evidence.volume_mm3, kBand.shape) *
+                     std::pow(evidence.whole_planes(), kBand.planes);
         const double by_hand =
             kNinety * std::max({evidence.residual_mm, evidence.disagreement_mm / std::sqrt(2.0), evidence.hand_mm});
         drawing_mm_ = std::hypot(evidence.voxel_mm / 2, by_hand);

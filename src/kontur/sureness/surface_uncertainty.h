@@ -29,10 +29,10 @@ struct SurfaceUncertainty {
 SurfaceUncertainty surface_uncertainty(const SurfaceEvidence& evidence);
 
 /// Half the width in mm of the band around the fitted surface that holds the true surface with 90 %, at the samples. It
-/// follows from the distance h to the nearest drawn line, |grad f|, h's mean, and the shape's difference from a ball. An
-/// image that was used narrows it (image_shares.h). The drawing's own error adds in squares: half a voxel, the residual,
-/// and the disagreement of contours where they cross, or what parallel ones tell of the hand. Empty below
-/// `kLeastPlanes`.
+/// follows from the distance h to the nearest drawn line, |grad f|, h's mean, the shape's difference from a ball, and how
+/// many planes were drawn. An image that was used narrows it (image_shares.h). The drawing's own error adds in squares: half
+/// a voxel, the residual, and the disagreement of contours where they cross, or what parallel ones tell of the hand. Empty
+/// below `kLeastPlanes`.
 std::vector<double> half_widths_mm(const SurfaceEvidence& evidence);
 
 /// The same at any points on or near the surface, such as a mesh's, with the mean of |grad f|: a k-d tree query each.

@@ -3,26 +3,32 @@
 
 namespace kontur {
 
-// Constants of the band, of the expected Dice and of the volume's interval, all fitted by
-// bench/annotators/uncertainty_fit.py to 1198 drawings of 39 structures by simulated annotators, the half `tune`
-// (docs/accuracy/sureness.md). Lengths are in sizes of the surface (SurfaceEvidence::size_mm), so
-// that results turn and scale with the drawing.
+// Constants of the band, of the expected Dice and of the volume's interval. bench/annotators/uncertainty_fit.py fitted them
+// to 1198 drawings of 39 smooth bodies by simulated annotators, bench/annotators/organ_band.py those that say so to drawings
+// of real structures; both of the half `tune` (docs/accuracy/sureness.md). Lengths are in sizes of the surface
+// (SurfaceEvidence::size_mm), so that results turn and scale with the drawing.
 
 /// A surface is never said to be nearer than this to a line, and |grad f| is taken within these limits.
 inline constexpr double kLeastDistance = 0.003, kLeastSlope = 0.3, kMostSlope = 2;
 
-/// half width = exp(factor) * h^distance * |grad f|^slope * (mean h)^mean_distance * (area^1.5 / volume)^shape
+/// half width = exp(factor) * h^distance * |grad f|^slope * (mean h)^mean_distance * (area^1.5 / volume)^shape * n^planes
+/// with n = SurfaceEvidence::whole_planes(). Factor, distance and planes are of real structures: parts that were missed
+/// begin near lines, too, and few planes miss more of them than mean h tells.
 struct BandModel {
-    double factor, distance, slope, mean_distance, shape;
+    double factor, distance, slope, mean_distance, shape, planes;
 };
-inline constexpr BandModel kBand{-1.76, 1.10, -0.51, 0.52, 0.81};
+inline constexpr BandModel kBand{-1.62, 0.58, -0.51, 0.52, 0.81, -0.70};
 
-/// (1 - Dice) / Dice = exp(factor) * E^power with E = mean(h^distance * |grad f|^slope) * area / volume, and the drawing's
-/// own error on top. The ratio's true value lies within [low, high] times that in 90 % of all cases.
+/// The lines of a whole plane, in square roots of the surface's area: a great circle of a ball is 1.77.
+inline constexpr double kWholeSection = 1;
+
+/// (1 - Dice) / Dice = exp(factor) * E^power with E = mean(h^distance * |grad f|^slope) * area / volume, and what contours
+/// disagree by on top. The ratio's true value lies within [low, high] times that in 90 % of all cases. What parallel
+/// contours tell of the hand is added at the worse end alone. Factor, low and high are of real structures.
 struct DiceModel {
     double factor, power, distance, slope, drawing, low, high;
 };
-inline constexpr DiceModel kDice{-2.87, 1.68, 0.97, -0.71, 0.5, 0.52, 2.05};
+inline constexpr DiceModel kDice{-2.83, 1.68, 0.97, -0.71, 0.5, 0.4, 2.6};
 
 /// 1 - Dice falls with this power of the number of planes.
 inline constexpr double kGainPower = 1.42;

@@ -16,7 +16,6 @@ places, it holds those whose distance from that level, or from the faces of the 
 of the band that are of real structures would be, by the half `tune`: 90 % quantile regression of the border's distance.
 """
 import argparse
-import collections
 import concurrent.futures
 import csv
 import json
@@ -36,8 +35,8 @@ import images  # noqa: E402
 PLANES = {"3 to 4 planes": (3, 4), "5 to 7 planes": (5, 7), "10 planes": (10, 10)}
 KINDS = {"axial": "axial", "ortho": "orthogonal", "oblique": "oblique"}
 HANDS = {"exact": "exact", "hand": "by hand"}
-COLUMNS = ["image", "set", "drawings", "count", "border_held", "border_held_and_half_a_voxel", "surface_near_level", "surface_near_voxels",
-           "median_half_width_mm", "dice", "expected_dice", "dice_held"]
+COLUMNS = ["image", "set", "drawings", "count", "border_held", "without_parallel", "and_half_a_voxel", "surface_near_level",
+           "surface_near_voxels", "median_half_width_mm", "dice", "expected_dice", "dice_held"]
 LEAST_DISTANCE, LEAST_SLOPE, MOST_SLOPE, NINETY = 0.003, 0.3, 2.0, 1.645
 BAND = np.array([-1.62, 0.58, -0.51, 0.52, 0.81, -0.70])  # src/kontur/sureness/uncertainty_model.h
 OF_ORGANS = [0, 1, 5]  # factor, distance, planes
@@ -79,8 +78,8 @@ class State:
         share = share / share.sum()
         away, h, area, self.border_left, widths = np.array(line["border"]).T
         self.away, self.area = away, area / area.sum()
-        by_hand = NINETY * max(line["residual_mm"], line["disagreement_mm"] / np.sqrt(2), line["hand_mm"])
-        self.drawing = np.hypot(line["voxel_mm"] / 2, by_hand) / line["size_mm"]
+        crossing = max(line["residual_mm"], line["disagreement_mm"] / np.sqrt(2))
+        self.drawing, without = (np.hypot(line["voxel_mm"] / 2, NINETY * mm) / line["size_mm"] for mm in (max(crossing, line["hand_mm"]), crossing))
         h, distance = (np.log(np.maximum(values, LEAST_DISTANCE)) for values in (h, distance))
         slope = np.log(np.clip(slope, LEAST_SLOPE, MOST_SLOPE))
         same = [np.log(share @ np.exp(distance)), np.log(line["area_mm2"] ** 1.5 / line["volume_mm3"]), np.log(line["whole_planes"])]
@@ -88,22 +87,23 @@ class State:
         of_surface = np.column_stack([np.ones_like(distance), distance, slope, *(np.full_like(distance, s) for s in same)])
         own = np.hypot(left * np.exp(of_surface @ BAND), self.drawing)
         half = line["voxel_mm"] / line["size_mm"] / 2
-        self.row = {"border_held": self.area @ (away <= widths), "border_held_and_half_a_voxel": self.area @ (away <= widths + half),
+        without = np.sqrt(widths**2 - self.drawing**2 + without**2)
+        self.row = {"border_held": self.area @ (away <= widths), "without_parallel": self.area @ (away <= without),
+                    "and_half_a_voxel": self.area @ (away <= widths + half),
                     "surface_near_level": share @ (to_level <= own), "surface_near_voxels": share @ (to_voxels <= own),
                     "median_half_width_mm": line["size_mm"] * np.median(widths), "dice": line["dice"], "expected_dice": line["expected"],
                     "dice_held": line["low"] <= line["dice"] <= line["high"]}
 
 
 def groups(states):
-    found = collections.defaultdict(list)
-    for s in states:
-        line = s.line
-        for name, (least, most) in PLANES.items():
-            if least <= line["planes"] <= most:
-                found[name].append(s)
-        for name in (KINDS[line["kind"]], HANDS[line["hand"]], "all"):
-            found[name].append(s)
-    return {name: found[name] for name in (*PLANES, *KINDS.values(), *HANDS.values(), "all") if name in found}
+    """Of all; by planes, also of slices by either hand; by kind; by hand."""
+    found = {name: [s for s in states if least <= s.line["planes"] <= most] for name, (least, most) in PLANES.items()}
+    for hand, by in HANDS.items():
+        slices = [s for s in states if (s.line["kind"], s.line["hand"]) == ("axial", hand)]
+        found |= {f"axial {by}, {name}": [s for s in own if s in slices] for name, own in list(found.items())[:len(PLANES)]}
+    found |= {by: [s for s in states if s.line["kind"] == kind] for kind, by in KINDS.items()}
+    found |= {by: [s for s in states if s.line["hand"] == hand] for hand, by in HANDS.items()}
+    return {name: own for name, own in (found | {"all": states}).items() if own}
 
 
 def write_csv(options):

@@ -6,7 +6,8 @@ Usage: bench/annotators/uncertainty_fit.py STATES.jsonl [--judge OTHER.jsonl]
 
 STATES.jsonl is what kontur_annotators prints with --sample-step. Prints the constants, and the coverage of band, expected Dice and
 volume with each structure left out of the constants in turn; with --judge also how constants of STATES.jsonl do on other
-structures. States of fewer than three different planes are left out, as the library leaves them out.
+structures. Then how much of the true border the band holds as it is built, with the constants that organ_band.py fits.
+States of fewer than three different planes are left out, as the library leaves them out.
 """
 import argparse
 import json
@@ -16,6 +17,7 @@ from scipy import optimize
 
 LEAST_DISTANCE, LEAST_SLOPE, MOST_SLOPE = 0.003, 0.3, 2.0
 NINETY = 1.645
+PLANES = -0.70  # power of the number of whole planes, which organ_band.py fits
 LEAST_ERROR = 0.0006  # of the diameter: what truths.py cannot tell from 0
 
 
@@ -31,18 +33,21 @@ class State:
         self.error, self.share = np.abs(error), share / share.sum()
         self.mean_h = np.log((np.exp(self.h) * self.share).sum())
         self.mean_g = (self.g * self.share).sum()
+        self.known = PLANES * np.log(line["whole_planes"])
         self.shape = np.log(line["area_mm2"] ** 1.5 / line["volume_mm3"])
         self.area_per_volume = line["area_mm2"] * size / line["volume_mm3"]
         by_hand = NINETY * max(line["residual_mm"], line["disagreement_mm"] / np.sqrt(2), line["hand_mm"])
         self.drawing = np.hypot(line["voxel_mm"] / 2, by_hand) / size
         self.hand_odds = line["area_mm2"] * line["disagreement_mm"] / (np.sqrt(8) * line["volume_mm3"])
+        away, _, area, _, width = np.array(line["border"]).T
+        self.held = area @ (away <= width) / area.sum()
         self.dice = line["dice"]
         self.odds = 1 / max(line["dice"], 1e-3) - 1
         self.volume_ratio = line["true_volume_mm3"] / line["volume_mm3"]
 
     def half_widths(self, b, own_slope=True):
         g = self.g if own_slope else self.mean_g
-        return np.hypot(np.exp(b[0] + b[1] * self.h + b[2] * g + b[3] * self.mean_h + b[4] * self.shape), self.drawing)
+        return np.hypot(np.exp(b[0] + b[1] * self.h + b[2] * g + b[3] * self.mean_h + b[4] * self.shape + self.known), self.drawing)
 
     def coverage(self, b, own_slope=True):
         return self.share[self.error <= self.half_widths(b, own_slope)].sum()
@@ -67,10 +72,10 @@ def fit_band(states, start=(-2.27, 0.76, -0.6, 0.41, 0.56)):
     error = np.log(np.maximum(np.concatenate([s.error for s in states]), LEAST_ERROR))
     design = np.concatenate([np.stack([np.ones_like(s.h), s.h, s.g, np.full_like(s.h, s.mean_h), np.full_like(s.h, s.shape)], 1)
                              for s in states])
-    drawing = np.concatenate([np.full_like(s.h, s.drawing) for s in states])
+    drawing, known = (np.concatenate([np.full_like(s.h, getattr(s, name)) for s in states]) for name in ("drawing", "known"))
 
     def loss(b):
-        missed = np.exp(design @ b)
+        missed = np.exp(design @ b + known)
         width = np.hypot(missed, drawing)
         off = error - np.log(width)
         slope = np.where(off > 0, -0.9, 0.1)
@@ -152,6 +157,17 @@ def print_table(title, rows):
           f"{np.quantile(good, 0.9):.4f} (90 %); log odds sd {np.std([r[4] for r in rows]):.3f}")
 
 
+def print_held(title, states):
+    """How much of the true border the band holds, as the program that drew them has it."""
+    names = sorted({s.structure for s in states})
+    least = min((np.mean([s.held for s in states if s.structure == name]), name) for name in names)
+    print(f"{title}, as built: of the border {np.mean([s.held for s in states]):.3f}, least {least[0]:.3f} of {least[1]}")
+    for low, high in ((3, 4), (5, 7), (8, 13)):
+        some = [s.held for s in states if low <= s.planes <= high]
+        if some:
+            print(f"  {low} to {high} planes: {np.mean(some):.3f} ({len(some)})")
+
+
 def read(path):
     with open(path, encoding="utf-8") as file:
         lines = [json.loads(line) for line in file]
@@ -179,8 +195,11 @@ def main():
     print(f"kGainPower = {fit_gain(states):.2f}")
     left_out = judged(states, lambda name: (band_without[name], dice_without[name], intervals))
     print_table("each structure left out in turn", left_out)
+    print_held("these structures", states)
     if options.judge:
-        print_table("other structures", judged(read(options.judge), lambda name: (band, dice, intervals)))
+        others = read(options.judge)
+        print_table("other structures", judged(others, lambda name: (band, dice, intervals)))
+        print_held("other structures", others)
 
 
 if __name__ == "__main__":

@@ -123,7 +123,7 @@ void draw_by_hand(ContourSet& set, double voxel_mm, Random& random) {
 
 }  // namespace
 
-ContourSet drawn(const Structure& structure, const DrawnPlanes& wanted) {
+ContourSet drawn(const Structure& structure, const WantedDrawing& wanted) {
     ContourSet contours = trace(structure.truth, planes(structure, wanted.kind, wanted.count),
                                 {.min_area_mm2 = 2 * std::pow(structure.truth.grid.voxel_volume_mm3(), 2.0 / 3)}, kAlone);
     Random random(seed_of(structure.name + wanted.kind + std::to_string(wanted.count) + "hand"));
@@ -149,13 +149,13 @@ Structure read_structure(const std::vector<std::string>& words) {
     return structure;
 }
 
-std::vector<DrawnPlanes> wanted_drawings() {
+std::vector<WantedDrawing> wanted_drawings() {
     const char* chosen = std::getenv("KONTUR_IMAGES");
-    std::vector<DrawnPlanes> wanted;
+    std::vector<WantedDrawing> wanted;
     for (const char* kind : {"axial", "ortho", "oblique"})
         for (const int count : {3, 4, 5, 7, 10})
             for (const bool by_hand : {false, true}) {
-                const DrawnPlanes one{kind, count, by_hand};
+                const WantedDrawing one{kind, count, by_hand};
                 if (!chosen || std::string(chosen).find(one.name()) != std::string::npos) wanted.push_back(one);
             }
     return wanted;

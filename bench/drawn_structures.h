@@ -22,8 +22,8 @@ struct Structure {
 /// From the words of bench/image_sources.py: NAME IMAGE LABELS LABEL [FRAME] or NAME phantom ORGAN SPACING_MM.
 Structure read_structure(const std::vector<std::string>& words);
 
-/// Planes of a kind, and how the contours in them are drawn.
-struct DrawnPlanes {
+/// Planes of a kind, and how contours are to be drawn in them.
+struct WantedDrawing {
     std::string kind;
     int count;
     bool by_hand;
@@ -32,9 +32,9 @@ struct DrawnPlanes {
 };
 
 /// All of them, or those that the environment's KONTUR_IMAGES names, as axial,3,exact;...
-std::vector<DrawnPlanes> wanted_drawings();
+std::vector<WantedDrawing> wanted_drawings();
 
 /// The mask's sections in those planes.
-ContourSet drawn(const Structure& structure, const DrawnPlanes& wanted);
+ContourSet drawn(const Structure& structure, const WantedDrawing& wanted);
 
 }  // namespace kontur

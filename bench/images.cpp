@@ -64,7 +64,7 @@ private:
     FittedFunction fitted_;
 };
 
-void measure(const Structure& structure, const DrawnPlanes& wanted) {
+void measure(const Structure& structure, const WantedDrawing& wanted) {
     const double voxel = smallest(structure.truth.grid.spacing_mm());
     const ContourSet contours = drawn(structure, wanted);
     const double start = cpu_seconds();
@@ -95,7 +95,7 @@ double change(const Mask& before, const Mask& after) {
 
 /// How steady results are: what they change by, without and with the image, where the middle one of the contours is moved in
 /// its plane.
-void measure_move(const Structure& structure, const DrawnPlanes& wanted, double voxels) {
+void measure_move(const Structure& structure, const WantedDrawing& wanted, double voxels) {
     const ContourSet contours = drawn(structure, wanted);
     ContourSet moved = contours;
     Contour& contour = moved.contours[moved.contours.size() / 2];
@@ -134,7 +134,7 @@ int run(const std::vector<std::string>& words) {
         structure.image.grid.index_to_mm.translation += std::stod(shift) * Vec3{1, 1, 0.5};
     if (const char* file = std::getenv("KONTUR_IMAGES_OTHER")) structure.image = other_image(structure, file);
     const char* move = std::getenv("KONTUR_IMAGES_MOVE_VOXELS");
-    for (const DrawnPlanes& wanted : wanted_drawings()) try {
+    for (const WantedDrawing& wanted : wanted_drawings()) try {
             if (move) measure_move(structure, wanted, std::stod(move));
             else measure(structure, wanted);
         } catch (const Error& error) {

@@ -51,7 +51,7 @@ ordered_json sample_rows(const SurfaceEvidence& e, const TrueBorder& truth) {
     return rows;
 }
 
-void measure(const Structure& structure, const TrueBorder& truth, const DrawnPlanes& wanted, UseImage use) {
+void measure(const Structure& structure, const TrueBorder& truth, const WantedDrawing& wanted, UseImage use) {
     const ContourSet contours = drawn(structure, wanted);
     const Segmentation made =
         segment(contours, structure.truth.grid, &structure.image, {.use_image = use, .mesh = true}, kAlone);
@@ -101,7 +101,7 @@ void run(const std::vector<std::string>& words) {
     const Structure structure = read_structure(words);
     const TrueBorder truth(structure.truth);
     const char* with_image = std::getenv("KONTUR_ORGANS_IMAGE");
-    for (const DrawnPlanes& wanted : wanted_drawings()) try {
+    for (const WantedDrawing& wanted : wanted_drawings()) try {
             measure(structure, truth, wanted, with_image ? UseImage::automatic : UseImage::off);
         } catch (const Error& error) {
             fmt::print(stderr, "{} {}: {}\n", structure.name, wanted.name(), error.what());

@@ -334,8 +334,8 @@ TEST(SectionCheck, RingsAcrossAVesselSayNothingOfItsOtherTurns) {
     EXPECT_TRUE(sentences(check).empty()) << sentences(check).front();
 }
 
-TEST(SectionCheck, APlaneGivenAsEmptyDoesNotSilenceAStack) {
-    // A comb: the middle slice shows its back alone, and the result has a tooth there.
+/// A comb: the middle slice shows its back alone, and the result has a tooth there.
+TEST(SectionCheck, PlanesThatCrossAStackDoNotLetItsSlicesSilenceEachOther) {
     ContourSet set;
     for (const double z : {-4.0, -2.0, 0.0, 2.0, 4.0}) {
         set.contours.push_back(test::circle(axial_at(z), 3, 40));
@@ -344,10 +344,14 @@ TEST(SectionCheck, APlaneGivenAsEmptyDoesNotSilenceAStack) {
         for (Vec3& p : set.contours.back().points) p.x += 20;
     }
     const Solid joined = [](const Vec3& p) {
-        return std::max(3 - std::hypot(p.x, p.y), std::min(6 - std::hypot(p.x - 20, p.y), 5 - std::abs(p.z)));
+        return std::min(5 - std::abs(p.z), std::max(3 - std::hypot(p.x, p.y), 6 - std::hypot(p.x - 20, p.y)));
     };
     EXPECT_EQ(checked(set, joined).wrong_planes(), 1u);
-    set.empty_planes.push_back(make_plane({0, -30, 0}, {0.2, 1, 0.4}));
+    ContourSet with_empty = set;
+    with_empty.empty_planes.push_back(make_plane({0, -30, 0}, {0.2, 1, 0.4}));
+    EXPECT_EQ(checked(with_empty, joined).wrong_planes(), 1u);
+    // A plane across the back.
+    set.contours.push_back({make_plane({0, 0, 0}, {1, 0, 0}), {{0, -3, -5}, {0, 3, -5}, {0, 3, 5}, {0, -3, 5}}});
     EXPECT_EQ(checked(set, joined).wrong_planes(), 1u);
 }
 

@@ -10,6 +10,7 @@ namespace kontur {
 namespace {
 
 constexpr double kLeastSine = 0.05;  // of the angle between planes that have a line in common
+constexpr double kParallel = 0.95;   // cosine: of planes of one stack
 constexpr std::size_t kFewestPixels = 3;
 
 /// The line that two planes share, along with the stretch of it that either one's outlines span.
@@ -150,6 +151,18 @@ bool is_explained(const Region& region, const PlaneLook& look, const Sheet& shee
     return false;
 }
 
+bool are_parallel(const PlaneLook& a, const PlaneLook& b) {
+    return std::abs(dot(a.plane().normal, b.plane().normal)) > kParallel;
+}
+
+/// Whether two planes are slices of one stack: parallel, and part of what the one shows lies over what the other shows.
+/// Rings of a helix a turn apart are parallel, too, and lie beside each other.
+bool are_slices(const PlaneLook& a, const PlaneLook& b) {
+    constexpr std::size_t kPlaces = 100;
+    return are_parallel(a, b) && std::ranges::any_of(a.filled_places(kPlaces),
+                                                     [&](const Vec3& place) { return b.contains(b.plane().to_uv(place)); });
+}
+
 }  // namespace
 
 std::vector<std::vector<Contradiction>> contradictions(std::span<const PlaneLook> looks, const ContourSet& set) {
@@ -167,8 +180,7 @@ OtherPlanes::OtherPlanes(std::span<const PlaneLook> looks, double tolerance_mm)
     : looks_(looks), tolerance_mm_(tolerance_mm) {
     // The drawn ones come first. What is given as empty does not make a stack less of one.
     for (const PlaneLook& look : looks)
-        if (look.section())
-            are_parallel_ = are_parallel_ && std::abs(dot(look.plane().normal, looks.front().plane().normal)) > 0.95;
+        if (look.section()) are_parallel_ = are_parallel_ && are_parallel(look, looks.front());
 }
 
 bool OtherPlanes::silence(const PlaneLook& own, const Vec3& place) const {
@@ -181,7 +193,7 @@ bool OtherPlanes::silence(const PlaneLook& own, const Vec3& place) const {
         const double off = std::abs(other.plane().distance_to(place));
         if (off >= near) return false;
         const Point2 at = other.plane().to_uv(place);
-        return other.contains(at) || std::hypot(off, other.clearance(at)) < near;
+        return (other.contains(at) || std::hypot(off, other.clearance(at)) < near) && !are_slices(own, other);
     });
 }
 

@@ -25,8 +25,8 @@ class OtherPlanes {
 public:
     OtherPlanes(std::span<const PlaneLook> looks, double tolerance_mm);
 
-    /// The plane is empty there, far from its lines, and others show the object near the place: it says nothing. In a stack
-    /// of parallel planes each one does.
+    /// The plane is empty there, far from its lines, and others show the object near the place: it says nothing. Slices of
+    /// its own stack do not silence it.
     bool silence(const PlaneLook& own, const Vec3& place) const;
     /// Another plane, which is nearly the same one there, shows the contrary.
     bool deny(const PlaneLook& own, const Vec3& place, bool filled) const;

@@ -5,17 +5,13 @@
 #include <optional>
 #include <string_view>
 
-#include "kontur/io/images/read_image_options.h"
+#include "kontur/io/image_frames.h"
 
 // The one place that knows which of the library's readers and writers a file needs.
 
 namespace kontur::app {
 
-/// An image and how to read it.
-struct ImageInput {
-    std::filesystem::path path;
-    ReadImageOptions options;
-};
+using ImageInput = ImageSource;
 
 /// Compares without case: ".png" for picture.PNG, ".nii.gz" for mask.nii.gz.
 bool has_extension(const std::filesystem::path& path, std::string_view extension);

@@ -78,9 +78,9 @@ private:
     }
 
     Image image_of(std::size_t frame, const Work& work) const {
-        const ImageInput& input = segmented_.command.image;
-        return read_image(input.path, of_frame(input.options, segmented_.frames, static_cast<std::int64_t>(frame) + 1),
-                          work);
+        const ImageInput one =
+            source_of_frame(segmented_.command.image, segmented_.frames, static_cast<std::int64_t>(frame) + 1);
+        return read_image(one.path, one.options, work);
     }
 
     ContourSet drawn_in(std::size_t frame) const {

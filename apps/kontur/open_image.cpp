@@ -31,6 +31,13 @@ Image phantom_image(const Work& work) {
     return make_phantom_image(scan->grid, {}, work);
 }
 
+/// A DICOM folder is looked through once, however often it is asked.
+ImageInput with_headers(ImageInput input, const Work& work) {
+    if (looks_like_dicom(input.path) && !is_dicom_seg(input.path))
+        input.options.dicom.content = read_dicom_headers_of(input.path, work);
+    return input;
+}
+
 /// Whose image it is, and what files that are made of it refer to.
 void tell_series(const ImageInput& input, viewer::OpenedImage& opened) {
     opened.frame_of_reference_uid = frame_of_reference_of(input);
@@ -89,9 +96,8 @@ ImageFrames frames_of(const ImageInput& input) {
     if (!input.options.frame && !input.options.dicom.volume && !input.options.dicom.series_uid) return {};
     try {
         ImageFrames frames = read_image_frames(input.path, input.options);
-        const auto& series = input.options.dicom.series_uid;
-        if (frames.count > 1 || !series || !fs::is_directory(input.path)) return frames;
-        return frames_beside(input.path, *series);
+        if (frames.count > 1 || !input.options.dicom.series_uid || !fs::is_directory(input.path)) return frames;
+        return frames_beside(input.path, input.options.dicom);
     } catch (const Error&) {
         return {};  // what was opened is all that there is
     }
@@ -109,11 +115,9 @@ viewer::Times times_of(const ImageInput& input, viewer::OpenedImage& opened) {
                      : frames.are_volumes        ? *input.options.dicom.volume
                                                  : input.options.frame.value_or(1);
     const auto read = [input, frames](int time) {
-        ImageInput other = input;
-        other.options = of_frame(input.options, frames, time + 1);
         Messages messages;  // what there is to say was said of the one that was opened
         viewer::OpenedImage image;
-        open_file(other, {}, image, messages);
+        open_file(source_of_frame(input, frames, time + 1), {}, image, messages);
         turn_into_suv(image, messages);
         return image.image;
     };
@@ -130,8 +134,9 @@ viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Messag
         opened.title = "Phantom: upper abdomen";
         opened.reference.path = viewer::kExample;
     } else {
-        open_file(input, work, opened, messages);
-        opened.times = times_of(input, opened);
+        const ImageInput known = with_headers(input, work);
+        open_file(known, work, opened, messages);
+        opened.times = times_of(known, opened);
     }
     work.report("look at values", 1);
     opened.reference.fingerprint = viewer::fingerprint(*opened.image);

@@ -191,11 +191,12 @@ void place_in_time(SegmentCommand& command, ReadContours& read) {
     if (!looks_like_dicom(image.path) || is_dicom_seg(image.path)) return;
     const ImageFrames frames = read_image_frames(image.path, image.options);
     if (frames.count < 2) return;
+    image.options.dicom.content = frames.headers;
     read = read_contours_in_time(command.contours, command.read, list_dicom_frames(image.path, image.options.dicom));
     const auto& contours = read.contours.contours;
     const std::optional<double> frame = contours.empty() ? std::nullopt : contours.front().frame;
     if (!frame || std::ranges::any_of(contours, [&](const Contour& one) { return one.frame != frame; })) return;
-    image.options = of_frame(image.options, frames, static_cast<std::int64_t>(*frame));
+    image = source_of_frame(image, frames, static_cast<std::int64_t>(*frame));
     read.notes.push_back(fmt::format("all contours refer to frame {} of {}, which is read", *frame, image.path.string()));
 }
 

@@ -149,13 +149,16 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     ContourSet& contours = read.contours;
     std::vector<std::string> notes = std::move(read.notes);
     if (!command.name.empty()) contours.name = command.name;
-    ReadImageOptions image = command.image.options;
-    image.on_note = [&](std::string_view note) { notes.emplace_back(note); };
-    const ImageFrames frames = read_image_frames(command.image.path, image, work);
+    ImageInput heard = command.image;
+    heard.options.on_note = [&](std::string_view note) { notes.emplace_back(note); };
+    const ImageFrames frames = read_image_frames(heard.path, heard.options, work);
+    ImageInput known = command.image;
+    known.options.dicom.content = frames.headers;
     if (!frames.order.empty()) notes.push_back(fmt::format("{}: {}", command.image.path.string(), frames.order));
-    const ImageInput first{command.image.path, of_frame(command.image.options, frames, 1)};
+    const ImageInput first = source_of_frame(command.image, frames, 1);
     for (std::string& note : frame_of_reference_notes(read.frame_of_reference_uid, first)) notes.push_back(std::move(note));
-    const Grid grid = read_grid(command.image.path, of_frame(image, frames, 1), work);
+    heard = source_of_frame(heard, frames, 1);
+    const Grid grid = read_grid(heard.path, heard.options, work);
     choose_cycle(command, contours, frames, notes);
     std::vector<fs::path> inputs = command.contours;
     inputs.push_back(command.image.path);
@@ -169,8 +172,8 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     const auto image_at = [&](double time) -> std::shared_ptr<const Image> {
         const auto found = std::find(times.begin(), times.end(), time);
         if (found == times.end()) return nullptr;
-        return std::make_shared<const Image>(
-            read_image(command.image.path, of_frame(command.image.options, frames, found - times.begin() + 1), work));
+        const ImageInput one = source_of_frame(command.image, frames, found - times.begin() + 1);
+        return std::make_shared<const Image>(read_image(one.path, one.options, work));
     };
     MovingSegmentation result = kontur::segment_moving(contours, {grid, image_at}, times, options, work);
     result.seconds.insert(result.seconds.begin(), seconds.begin(), seconds.end());
@@ -189,7 +192,7 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     };
     write(command.output, [&](const fs::path& path) {
         if (!is_dicom_name(path)) return write_masks(path, result.masks, frames.step_s, mask);
-        for (std::string& note : write_masks_over_time({path, command.image, command.series, mask.provenance}, result.masks,
+        for (std::string& note : write_masks_over_time({path, known, command.series, mask.provenance}, result.masks,
                                                        contours.attributes, mask, work))
             result.warnings.push_back(std::move(note));
     });

@@ -78,18 +78,26 @@ ImageFrames
 
 void bind_images(py::module_& m) {
     const auto keywords = read_keywords();
-    const std::string image_help = std::string("Reads a scalar image with its exact geometry.\n") + read_help() + R"(
+    bind_frames(m, keywords);
+    const std::string image_help =
+        std::string("Reads a scalar image with its exact geometry.\n") + read_help(R"(frames : ImageFrames, optional
+    What `read_image_frames` said of it: of a folder, the files of the chosen frame alone are opened then.
+)") + R"(
 Returns
 -------
 Image
 )";
     define(
         m, "read_image", image_help.c_str(),
-        [keywords](const ExistingPath& path, const py::object& on_note, const py::kwargs& given) {
-            return read_with_notes(keywords.parse("read_image", given), on_note,
-                                   [&](const ReadImageOptions& options) { return read_image(path, options); });
+        [keywords](const ExistingPath& path, const std::optional<ImageFrames>& frames, const py::object& on_note,
+                   const py::kwargs& given) {
+            return read_with_notes(keywords.parse("read_image", given), on_note, [&](const ReadImageOptions& options) {
+                if (!frames) return read_image(path, options);
+                const ImageSource one = source_of_frame({path, options}, *frames, options.frame.value_or(1));
+                return read_image(one.path, one.options);
+            });
         },
-        py::arg("path"), py::kw_only(), kOnNote, KeywordText(keywords));
+        py::arg("path"), py::kw_only(), py::arg("frames") = py::none(), kOnNote, KeywordText(keywords));
     const std::string grid_help = std::string("The geometry of an image file alone; reads no voxels.\n") + read_help() + R"(
 Returns
 -------
@@ -102,7 +110,6 @@ Grid
                                    [&](const ReadImageOptions& options) { return read_grid(path, options); });
         },
         py::arg("path"), py::kw_only(), kOnNote, KeywordText(keywords));
-    bind_frames(m, keywords);
     const std::string mask_help = std::string("Reads a mask.\n") + read_help(R"(label : int, optional
     The voxels with this value; needed when the file has several. All that are not 0 when left out.
 )") + R"(

@@ -120,5 +120,10 @@ def test_a_folder_of_files_is_read_frame_by_frame(tmp_path, contours, grid, made
     assert [int(image.samples.max()) for image in images] == list(range(1, FRAMES + 1))
     moving = kontur.segment_moving(contours, kontur.read_grid(tmp_path, frame=1), range(1, frames.count + 1))
     assert all(numpy.array_equal(one.values, other.values) for one, other in zip(moving.masks, made.masks))
-    with pytest.raises(kontur.UnsupportedError, match=f"holds {FRAMES} images"):
+    (tmp_path / "frame 3.nrrd").unlink()
+    last = kontur.read_image(tmp_path, frame=FRAMES, frames=frames)
+    assert numpy.array_equal(last.samples, images[-1].samples), "of a known folder other files are not looked at"
+    with pytest.raises(kontur.InvalidInputError, match=f"has no frame {FRAMES + 1}; it has 1 to {FRAMES}"):
+        kontur.read_image(tmp_path, frame=FRAMES + 1, frames=frames)
+    with pytest.raises(kontur.UnsupportedError, match=f"holds {FRAMES - 1} images"):
         kontur.read_image(tmp_path)

@@ -352,4 +352,8 @@ if __name__ == "__main__":
     case, folder = sys.argv[1], Path(sys.argv[2])
     if case == "odd":  # slices of 63 pixels: bits of one do not fill its last byte
         NY, NX = 9, 7
-    make_enhanced(case, folder) if case.startswith("enhanced") else make(case, folder)
+    if case in ("cine", "breath"):
+        folder.mkdir()
+        (write_cine if case == "cine" else write_phases)(folder / "dicom", 4, 5, 2.0, -4.0)
+    else:
+        make_enhanced(case, folder) if case.startswith("enhanced") else make(case, folder)

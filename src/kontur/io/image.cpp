@@ -234,20 +234,11 @@ void check_color(const std::array<double, 3>& color, const std::string& name) {
 
 /// One file of a folder of frames, without its frame; nullopt: the path is no such folder. Checks the grids of all.
 std::optional<std::pair<fs::path, ReadImageOptions>> frame_of_folder(const fs::path& path, const ReadImageOptions& options) {
-    if (!is_folder(path) || looks_like_dicom(path)) return std::nullopt;
-    const std::vector<fs::path> files = frame_files(path);
+    if (options.dicom.content || !is_folder(path) || looks_like_dicom(path)) return std::nullopt;
+    const std::vector<fs::path> files = checked_frame_files(path, options);
     if (files.empty()) return std::nullopt;
     ReadImageOptions own = options;
     own.frame.reset();
-    ReadImageOptions silent = own;
-    silent.on_note = silent.on_warning = {};
-    grid_of_frames(files, [&](const fs::path& file) {
-        if (const std::int64_t frames = read_image_frames(file, silent).count; frames > 1)
-            throw Error(ErrorKind::invalid_input,
-                        fmt::format("{} has {} frames itself, and of a folder each file is one frame; name the file alone",
-                                    file.string(), frames));
-        return read_grid(file, silent);
-    });
     const auto count = static_cast<std::int64_t>(files.size());
     if (!options.frame && count > 1)
         throw FrameChoiceError(

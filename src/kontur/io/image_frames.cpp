@@ -71,34 +71,59 @@ ImageFrames frames_of(const DicomPhases& phases) {
 }
 
 ImageFrames frames_of(const std::vector<fs::path>& files) {
-    ImageFrames frames{.count = static_cast<std::int64_t>(files.size())};
+    ImageFrames frames{.count = static_cast<std::int64_t>(files.size()), .files = files};
     frames.order = order_of(files.size(), "files", files.front().filename().string(), files.back().filename().string());
     frames.order += "; nothing says how far apart they are in time";
     return frames;
 }
 
 /// Without a file, a volume or a lone series that was chosen.
-std::optional<DicomPhases> phases_in(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+std::optional<DicomPhases> phases_in(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
     std::error_code ignored;
-    if (!fs::is_directory(path, ignored) || options.dicom.series_uid) return std::nullopt;
-    DicomPhases phases = list_dicom_phases(path, options.dicom, work);
+    if (!fs::is_directory(path, ignored) || options.series_uid) return std::nullopt;
+    DicomPhases phases = list_dicom_phases(path, options, work);
     return phases.series.size() > 1 ? std::optional(std::move(phases)) : std::nullopt;
+}
+
+ImageFrames dicom_frames(const fs::path& path, DicomSeriesOptions options, const Work& work) {
+    if (!options.content) options.content = read_dicom_headers_of(path, work);
+    const auto phases = phases_in(path, options, work);
+    ImageFrames frames = phases ? frames_of(*phases) : frames_of(list_dicom_volumes(path, options, work));
+    frames.headers = options.content;
+    return frames;
 }
 
 }  // namespace
 
-ImageFrames frames_beside(const fs::path& folder, const std::string& series_uid, const Work& work) {
-    const DicomPhases phases = list_dicom_phases(folder, {.series_uid = series_uid}, work);
-    return phases.series.size() > 1 ? frames_of(phases) : ImageFrames{};
+ImageFrames frames_beside(const fs::path& folder, const DicomSeriesOptions& options, const Work& work) {
+    DicomSeriesOptions known = options;
+    if (!known.content) known.content = read_dicom_headers_of(folder, work);
+    const DicomPhases phases = list_dicom_phases(folder, known, work);
+    ImageFrames frames = phases.series.size() > 1 ? frames_of(phases) : ImageFrames{};
+    frames.headers = known.content;
+    return frames;
+}
+
+std::vector<fs::path> checked_frame_files(const fs::path& folder, const ReadImageOptions& options) {
+    std::vector<fs::path> files = frame_files(folder);
+    if (files.empty()) return files;
+    ReadImageOptions silent = options;
+    silent.frame.reset();
+    silent.on_note = silent.on_warning = {};
+    grid_of_frames(files, [&](const fs::path& file) {
+        if (const std::int64_t frames = read_image_frames(file, silent).count; frames > 1)
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("{} has {} frames itself, and of a folder each file is one frame; name the file alone",
+                                    file.string(), frames));
+        return read_grid(file, silent);
+    });
+    return files;
 }
 
 ImageFrames read_image_frames(const fs::path& path, const ReadImageOptions& options, const Work& work) {
     if (is_nifti_name(path)) return read_nifti_frames(path);
-    if (looks_like_dicom(path) && !is_dicom_seg(path)) {
-        const auto phases = phases_in(path, options, work);
-        return phases ? frames_of(*phases) : frames_of(list_dicom_volumes(path, options.dicom, work));
-    }
-    if (const std::vector<fs::path> files = frame_files(path); !files.empty()) return frames_of(files);
+    if (looks_like_dicom(path) && !is_dicom_seg(path)) return dicom_frames(path, options.dicom, work);
+    if (const std::vector<fs::path> files = checked_frame_files(path, options); !files.empty()) return frames_of(files);
     ReadImageOptions any = options;
     any.frame.reset();
     any.max_voxels = 1;  // no voxel is read: either a frame is missing, or there are too many voxels
@@ -112,11 +137,20 @@ ImageFrames read_image_frames(const fs::path& path, const ReadImageOptions& opti
     return {};
 }
 
-ReadImageOptions of_frame(ReadImageOptions options, const ImageFrames& frames, std::int64_t frame) {
-    if (!frames.series_uids.empty()) options.dicom.series_uid = frames.series_uids.at(static_cast<std::size_t>(frame) - 1);
-    else if (frames.are_volumes) options.dicom.volume = static_cast<int>(frame);
-    else options.frame = frame;
-    return options;
+ImageSource source_of_frame(const ImageSource& image, const ImageFrames& frames, std::int64_t frame) {
+    if (frame < 1 || frame > frames.count)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} has no frame {}; it has {}", image.path.string(), frame,
+                                frames.count > 1 ? fmt::format("1 to {}", frames.count) : "1 alone"));
+    ImageSource source = image;
+    const auto place = static_cast<std::size_t>(frame) - 1;
+    source.options.dicom.content = frames.headers;
+    source.options.frame.reset();
+    if (!frames.series_uids.empty()) source.options.dicom.series_uid = frames.series_uids.at(place);
+    else if (frames.are_volumes) source.options.dicom.volume = static_cast<int>(frame);
+    else if (!frames.files.empty()) source.path = frames.files.at(place);
+    else source.options.frame = frame;
+    return source;
 }
 
 void check_frames_name(const fs::path& path) {

@@ -150,7 +150,8 @@ std::optional<double> even_step(const Stacks& stacks) {
 }  // namespace
 
 DicomPhases list_dicom_phases(const fs::path& folder, const DicomSeriesOptions& options, const Work& work) {
-    const DicomContent content = read_dicom_content(folder, dicom_folder(folder), std::nullopt, work);
+    const auto headers = options.content ? options.content : read_dicom_headers_of(folder, work);
+    const DicomContent& content = *headers;
     const auto stacks = chosen(groups_of(content), options.series_uid);
     if (!stacks) return {};
     check_grids(folder, *stacks, options.resample_slices);

@@ -206,7 +206,7 @@ auto find_in(const fs::path& path, const DicomSeriesOptions& options, const Work
     const bool is_folder = fs::is_directory(path, ignored);
     if (!is_folder && !fs::exists(path, ignored)) throw Error(ErrorKind::io, path.string() + ": no such file or folder");
     const std::optional<fs::path> file = is_folder ? std::nullopt : std::optional(path);
-    DicomContent content = read_content(path, file, work);
+    DicomContent content = options.content ? *options.content : read_content(path, file, work);
     if (file) refuse_file(content, *file);
     else if (!options.series_uid) set_doses_aside(content);
     if (content.stacks.empty()) refuse_empty(path, content);
@@ -255,6 +255,12 @@ bool looks_like_dicom(const fs::path& path) {
         return std::any_of(folder.files.begin(), folder.files.end(), has_dicom_prefix);
     };
     return holds_dicom(dicom_files_in(path)) || holds_dicom(dicom_folder(path));
+}
+
+std::shared_ptr<const DicomContent> read_dicom_headers_of(const fs::path& path, const Work& work) {
+    std::error_code ignored;
+    const std::optional<fs::path> file = fs::is_directory(path, ignored) ? std::nullopt : std::optional(path);
+    return std::make_shared<const DicomContent>(read_content(path, file, work));
 }
 
 std::vector<DicomSeries> list_dicom_series(const fs::path& folder, const Work& work) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "kontur/shape/volume.h"
 
 namespace kontur {
+
+struct DicomContent;
 
 /// One volume found in a folder of DICOM files.
 struct DicomSeries {
@@ -40,6 +43,8 @@ struct DicomSeriesOptions {
     bool resample_slices = false;
     /// Larger volumes are refused before their pixels are read.
     std::int64_t max_voxels = 2'200'000'000;
+    /// What `read_dicom_headers_of` found at the path; without it each call looks through the folder itself.
+    std::shared_ptr<const DicomContent> content = nullptr;
 };
 
 struct DicomVolume {
@@ -60,6 +65,10 @@ struct DicomGrid {
 /// True when the file starts as a DICOM file does, with a preamble or without one, or the folder or one below it holds such
 /// a file. False for what is not there. Throws Error(io) for what cannot be read.
 bool looks_like_dicom(const std::filesystem::path& path);
+
+/// The headers of all files beside one, or in a folder, for calls that read volume after volume of it: as the `content` of
+/// their options. Throws Error(io) as `read_dicom_series`.
+std::shared_ptr<const DicomContent> read_dicom_headers_of(const std::filesystem::path& path, const Work& work = {});
 
 /// The volumes in a folder, or, where it holds no images itself, in the folders below it, ordered by series UID; dose grids
 /// are among them. Reads headers only. Damaged images are left out; their error is thrown where there are no others.

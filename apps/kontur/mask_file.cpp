@@ -4,17 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <type_traits>
 #include <utility>
-#include <variant>
 
 #include "contour_files.h"
 #include "dicom_output.h"
 #include "in_faults_of.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
-#include "kontur/correct/ceded_voxels.h"
+#include "kontur/correct/put_label.h"
 #include "kontur/extract/mesh_mask.h"
 #include "kontur/extract/rasterize.h"
 #include "kontur/io/contours/contour_json.h"
@@ -102,41 +99,13 @@ MaskFile of_labels(const CorrectCommand& command, const ImageInput& input, const
     return file;
 }
 
-/// The labels that a correction takes voxels from, with how many.
-std::vector<std::string> losses(const MaskFile& file, const Mask& corrected) {
-    std::map<std::int64_t, std::size_t> lost;
-    for (std::size_t n = 0; n < corrected.values.size(); ++n) {
-        if (corrected.values[n] == 0) continue;
-        const auto value = static_cast<std::int64_t>(sample(file.labels, n));
-        if (value != 0 && value != file.label) ++lost[value];
-    }
+/// One for each label that loses or gets some.
+std::vector<std::string> sentences_of(const std::vector<PassedVoxels>& passed, std::int64_t corrected) {
     std::vector<std::string> sentences;
-    for (const auto& [value, voxels] : lost)
-        sentences.push_back(fmt::format("label {} loses {} to label {}", value, counted(voxels, "voxel"), file.label));
-    return sentences;
-}
-
-/// Of a voxel of a map: the label that it gets.
-struct GivenVoxel {
-    std::size_t offset;
-    std::int64_t label;
-};
-
-/// What the label loses where it touched others.
-std::vector<GivenVoxel> given_voxels(const MaskFile& file, const Mask& corrected, const Work& work) {
-    std::vector<GivenVoxel> given;
-    for (const CededVoxel& voxel : ceded_voxels(file.mask, corrected, work))
-        if (const auto label = static_cast<std::int64_t>(sample(file.labels, voxel.neighbor)); label != 0)
-            given.push_back({voxel.offset, label});
-    return given;
-}
-
-std::vector<std::string> gains(const std::vector<GivenVoxel>& given, std::int64_t from) {
-    std::map<std::int64_t, std::size_t> gained;
-    for (const GivenVoxel& voxel : given) ++gained[voxel.label];
-    std::vector<std::string> sentences;
-    for (const auto& [label, voxels] : gained)
-        sentences.push_back(fmt::format("label {} gets {} of label {}", label, counted(voxels, "voxel"), from));
+    for (const auto& [from, to, count] : passed)
+        sentences.push_back(to == corrected
+                                ? fmt::format("label {} loses {} to label {}", from, counted(count, "voxel"), to)
+                                : fmt::format("label {} gets {} of label {}", to, counted(count, "voxel"), from));
     return sentences;
 }
 
@@ -196,21 +165,9 @@ std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected, boo
         file.structures.masks[file.chosen] = corrected.mask;
         return {};
     }
-    std::vector<std::string> sentences = losses(file, corrected.mask);
-    std::vector<GivenVoxel> given;
-    if (shared_borders) given = given_voxels(file, corrected.mask, work);
-    for (std::string& sentence : gains(given, file.label)) sentences.push_back(std::move(sentence));
-    std::visit(
-        [&](auto& samples) {
-            using Value = typename std::decay_t<decltype(samples)>::value_type;
-            for (std::size_t n = 0; n < samples.size(); ++n) {
-                if (corrected.mask.values[n] != 0) samples[n] = static_cast<Value>(file.label);
-                else if (file.mask.values[n] != 0) samples[n] = 0;
-            }
-            for (const GivenVoxel& voxel : given) samples[voxel.offset] = static_cast<Value>(voxel.label);
-        },
-        file.labels.samples);
-    return sentences;
+    PutLabel made = put_label(std::move(file.labels), {file.label, file.mask, corrected.mask}, shared_borders, work);
+    file.labels = std::move(made.labels);
+    return sentences_of(made.passed, file.label);
 }
 
 std::vector<std::string> write_mask_file(const fs::path& path, const MaskFile& file, const CorrectCommand& command,

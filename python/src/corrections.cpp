@@ -4,6 +4,7 @@
 
 #include "bindings.h"
 #include "fields.h"
+#include "kontur/correct/put_label.h"
 #include "kontur/correct/suggest_to_look_at.h"
 #include "kontur/correct_mask.h"
 #include "run.h"
@@ -136,10 +137,60 @@ True
         py::arg("seen") = py::tuple(), kThreads);
 }
 
+void bind_put_label(py::module_& m) {
+    define(
+        m, "put_label", R"(Puts a corrected label into its label map.
+
+Its new voxels get it, whosever they were, and those that it left become 0. All others keep their values.
+
+Parameters
+----------
+labels : Image
+    Of integers.
+label : int
+mask : Mask
+    The label's voxels before, as `correct` got them.
+corrected : Mask
+    And after, on the same grid.
+shared_borders : bool
+    A label that touched this one follows where it retreats.
+threads : int
+    0: the machine's.
+
+Returns
+-------
+Image
+
+Raises
+------
+InvalidInputError
+    For masks of another grid than the map's, and a label that its values have no room for.
+
+Examples
+--------
+>>> values = np.zeros((6, 20, 20), np.uint8)
+>>> values[:, :, :9], values[:, :, 9:15] = 1, 2
+>>> labels = kontur.Image(values, kontur.Grid((20, 20, 6), np.eye(4), frame="LPS"))
+>>> mask = kontur.Mask(values == 1, labels.grid)
+>>> smaller = kontur.Mask((values == 1) & (np.arange(20) < 7), labels.grid)
+>>> [int((kontur.put_label(labels, 1, mask, smaller, shared).samples == 2).sum()) for shared in (False, True)]
+[720, 960]
+)",
+        [](const Image& labels, std::int64_t label, const Mask& mask, const Mask& corrected, bool shared_borders,
+           int threads) {
+            return unlocked([&] {
+                return put_label(labels, {label, mask, corrected}, shared_borders, {.threads = threads}).labels;
+            });
+        },
+        py::arg("labels"), py::arg("label"), py::arg("mask"), py::arg("corrected"), py::arg("shared_borders") = false,
+        kThreads);
+}
+
 }  // namespace
 
 void bind_corrections(py::module_& m) {
     bind_report(m);
+    bind_put_label(m);
     bind_suggest_to_look_at(m);
     py::class_<CorrectedMask> corrected(m, "CorrectedMask",
                                         "A corrected mask, and how its voxels came to be what they are.");

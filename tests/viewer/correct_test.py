@@ -104,6 +104,47 @@ def test_it_is_what_kontur_correct_makes_of_the_same_files(tmp_path, scan, use_i
         assert (voxels(saved(tmp_path, server, "labels.nii.gz")) == before).all()
 
 
+def write_halves(path, image):
+    """A ball as two labels that touch, 2 and 5, beside each other along the first axis."""
+    like = nibabel.load(image)
+    index = numpy.stack(numpy.meshgrid(*(numpy.arange(n) for n in like.shape), indexing="ij"), -1)
+    away = (index - numpy.array(like.shape) // 2) * (1.0, 1.2, 1.5)
+    labels = numpy.where(numpy.linalg.norm(away, axis=-1) < 12, numpy.where(away[..., 0] < 1, 2, 5), 0).astype(numpy.uint8)
+    nibabel.save(nibabel.Nifti1Image(labels, like.affine), path)
+
+
+def test_masks_that_share_borders_follow_as_kontur_correct_lets_them(tmp_path, scan):
+    write_halves(tmp_path / "halves.nii.gz", scan / "ball.nii")
+    before = voxels(tmp_path / "halves.nii.gz")
+    with running(tmp_path, scan / "ball.nii", "--project", tmp_path / "a.kontur") as server:
+        page = server.page()
+        first, second = imported(server, tmp_path / "halves.nii.gz")["structures"]
+        page.do("image.set", use=False)
+        plane = page.session["views"]["axial"]["plane"]
+        page.do("contour.add", structure=first, plane=plane, control=lines(ring(plane, 8, 48)))
+        alone = voxels(saved(tmp_path, server, "labels.nii.gz"))
+        page.do("borders.set", shared=True)
+        shared = voxels(saved(tmp_path, server, "labels.nii.gz"))
+        drawn = saved(tmp_path, server, "contours.json", first)
+        for words, expected in (([], alone), (["--shared-borders"], shared)):
+            subprocess.run([KONTUR, "correct", tmp_path / "halves.nii.gz", drawn, "--label", "2", *words, "--output",
+                            tmp_path / "out.nii.gz"], check=True)
+            assert (voxels(tmp_path / "out.nii.gz") == expected).all(), words
+        gained = (shared == 5) & (before == 2)
+        assert gained.any() and ((before == 5) & (shared == 2)).any(), "it retreats here and goes ahead there"
+        assert not (gained & (alone == 5)).any()
+        own = voxels(saved(tmp_path, server, "mask.nii.gz", second)) != 0
+        assert (own == (shared == 5)).all(), "by itself, too"
+        followed = int((own != (before == 5)).sum())
+        while page.wait_for_surface(second).get("correction", {}).get("followed") != followed:
+            pass
+        while page.history["undo"] != "Import a mask":
+            page.do("undo")
+        while page.wait_for_surface(second)["correction"].get("followed"):
+            pass
+        assert (voxels(saved(tmp_path, server, "labels.nii.gz")) == before).all()
+
+
 def test_it_survives_kill_9_a_moved_mask_and_a_moved_project(tmp_path, scan):
     mask = shutil.copy(scan / "labels.nii.gz", tmp_path)
     project = tmp_path / "a.kontur"

@@ -27,6 +27,7 @@
 #include "viewer/model/temporary_files.h"
 #include "viewer/surfaces/border_sharing.h"
 #include "viewer/surfaces/corrected_mask.h"
+#include "viewer/surfaces/mask_neighbors.h"
 
 namespace kontur::viewer {
 namespace {
@@ -240,7 +241,7 @@ struct ExportTarget {
     bool mesh;
 };
 
-/// A mask with its corrections.
+/// A mask with its corrections, by itself, on its own grid.
 FittedStructure corrected(const State& state, const Structure& structure, const ExportTarget& target, const Work& work) {
     FittedStructure one{structure, contour_set(state, structure.id), {}, false, {}};
     try {
@@ -250,18 +251,45 @@ FittedStructure corrected(const State& state, const Structure& structure, const 
         one.corrected = std::make_shared<const CorrectedMask>(correct({before, ExistingSurface(before, work), image},
                                                                       corrections_of(one.set, *structure.mask),
                                                                       correct_options(*structure.mask), work));
-        one.segmentation.mask = on_grid(one.corrected->mask, target.grid, work);
-        if (target.mesh) one.segmentation.mesh = mesh_of(one.corrected->mask, work);
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
     }
     return one;
 }
 
+/// Each of them follows what the corrections of others mean to it.
+void share_mask_borders(std::vector<FittedStructure>& masks, const State& state, const Work& work) {
+    const auto stored = [&](const FittedStructure& one) { return mask_of(state, one.structure); };
+    MaskExchanges exchanges;
+    for (const FittedStructure& one : masks)
+        exchanges.push_back(
+            std::make_shared<const MaskExchange>(exchange_of(stored(one)->mask(), made_voxels(*one.corrected), work)));
+    for (FittedStructure& one : masks) {
+        MaskExchanges others;
+        for (std::size_t n = 0; n < masks.size(); ++n) {
+            const BorderRule* rule = state.borders.rule_about(one.structure.id, masks[n].structure.id);
+            if (&masks[n] != &one && may_share(rule, *stored(one), *stored(masks[n]))) others.push_back(exchanges[n]);
+        }
+        one.corrected =
+            std::make_shared<const CorrectedMask>(after_others(CorrectedMask(*one.corrected), *stored(one), others));
+    }
+}
+
+std::vector<FittedStructure> corrected_masks(const State& state, const ExportTarget& target, const Work& work) {
+    std::vector<FittedStructure> masks;
+    for (const auto& [id, structure] : state.structures)
+        if (structure.mask) masks.push_back(corrected(state, structure, target, work));
+    if (state.borders.shared && masks.size() > 1) share_mask_borders(masks, state, work);
+    for (FittedStructure& one : masks) {
+        one.made.mask = on_grid(one.corrected->mask, target.grid, work);
+        if (target.mesh) one.made.mesh = mesh_of(one.corrected->mask, work);
+    }
+    return masks;
+}
+
 /// Adds the masks that are to be corrected, each at its place.
 void add_corrected(std::vector<FittedStructure>& all, const State& state, const ExportTarget& target, const Work& work) {
-    for (const auto& [id, structure] : state.structures)
-        if (structure.mask) all.push_back(corrected(state, structure, target, work));
+    for (FittedStructure& one : corrected_masks(state, target, work)) all.push_back(std::move(one));
     std::ranges::sort(all, {}, [](const FittedStructure& one) { return one.structure.id; });
 }
 
@@ -334,8 +362,12 @@ std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& st
 }
 
 FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work) {
-    if (structure_of(state, structure).mask)
-        return corrected(state, structure_of(state, structure), {image, image.grid, with_mesh}, work);
+    if (structure_of(state, structure).mask) {
+        State masks = state;
+        if (!state.borders.shared) std::erase_if(masks.structures, [&](const auto& one) { return one.first != structure; });
+        std::vector<FittedStructure> all = corrected_masks(masks, {image, image.grid, with_mesh}, work);
+        return std::move(*std::ranges::find(all, structure, [](const FittedStructure& one) { return one.structure.id; }));
+    }
     ContourSet set = contour_set(state, structure);
     const bool is_alone = std::all_of(state.contours.begin(), state.contours.end(),
                                       [&](const auto& item) { return item.second->structure == structure; });

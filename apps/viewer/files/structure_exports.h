@@ -41,8 +41,8 @@ Provenance provenance_of(const FittedStructure& one);
 
 /// All structures that have contours or a mask, in the order they were made, hidden ones too, on the image's grid; with
 /// their surfaces if wished. The image is asked where the project uses it. Where its structures share borders, masks and
-/// surfaces do, by its rules (see segment_together); masks to be corrected share none. Throws Error(invalid_input) where
-/// there is none, and what `segment` throws, with the structure's name.
+/// surfaces do, by its rules (see segment_together); masks to be corrected follow each other. Throws Error(invalid_input)
+/// where there is none, and what `segment` throws, with the structure's name.
 std::vector<FittedStructure> fit_structures(const State& state, const Image& image, bool with_mesh, const Work& work);
 
 /// The same on another grid, for the values of another image there: masks only, and only of the structures whose contours

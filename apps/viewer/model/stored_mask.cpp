@@ -126,6 +126,31 @@ Mask StoredMask::mask() const {
     return mask;
 }
 
+bool MaskVoxels::contains(std::size_t offset) const {
+    const IndexBox& box = mask_.box();
+    const Index3 at = index_at(offset, mask_.grid().size);
+    if (!box.contains(at)) return false;
+    const Index3 size = box.size();
+    const auto number =
+        static_cast<std::size_t>(at.i - box.low.i + size.i * (at.j - box.low.j + size.j * (at.k - box.low.k)));
+    return static_cast<unsigned char>(bits_[number / 8]) >> number % 8 & 1;
+}
+
+bool StoredMask::meets(const StoredMask& other) const {
+    const IndexBox both{{std::max(box_.low.i, other.box_.low.i), std::max(box_.low.j, other.box_.low.j),
+                         std::max(box_.low.k, other.box_.low.k)},
+                        {std::min(box_.high.i, other.box_.high.i), std::min(box_.high.j, other.box_.high.j),
+                         std::min(box_.high.k, other.box_.high.k)}};
+    for (int axis = 0; axis < 3; ++axis)
+        if (both.low[axis] > both.high[axis]) return false;
+    const MaskVoxels own(*this), its(other);
+    bool is_met = false;
+    for_each_voxel(grid_, both, [&](std::size_t offset, std::size_t) {
+        is_met = is_met || (own.contains(offset) && its.contains(offset));
+    });
+    return is_met;
+}
+
 /// zlib checks its sum of the bytes.
 std::string StoredMask::unpacked() const {
     std::string bits((voxels_in(box_) + 7) / 8, '\0');

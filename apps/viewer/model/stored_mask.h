@@ -30,14 +30,31 @@ public:
 
     /// The whole mask, as large as its grid. Byte for byte what came in.
     Mask mask() const;
+    /// Whether both have a voxel in common; of one grid.
+    bool meets(const StoredMask& other) const;
 
 private:
+    friend class MaskVoxels;
+
     std::string unpacked() const;
     std::string digest(std::string_view bits) const;
 
     Grid grid_;
     IndexBox box_;
     std::string packed_, hash_;
+};
+
+/// Looks voxels of a mask up, in an eighth of its box's bytes. The mask has to live as long.
+class MaskVoxels {
+public:
+    explicit MaskVoxels(const StoredMask& mask) : mask_(mask), bits_(mask.unpacked()) {}
+
+    /// `offset`: in the mask's grid.
+    bool contains(std::size_t offset) const;
+
+private:
+    const StoredMask& mask_;
+    std::string bits_;
 };
 
 }  // namespace kontur::viewer

@@ -102,6 +102,7 @@ json correction_json(const MaskEdit& corrected, SurfaceStage stage) {
               {"loose", std::move(pieces)},
               {"dropped", report.dropped_loose}};
     if (corrected.step) told["step"] = {{"voxels", corrected.step->voxels}, {"more_ml", corrected.step->more_ml}};
+    if (corrected.followed > 0) told["followed"] = corrected.followed;
     if (report.image && stage == SurfaceStage::finished) told["image"] = sentence(*report.image);
     return told;
 }

@@ -9,6 +9,7 @@
 #include "kontur/base/error.h"
 #include "viewer/model/structure_rules.h"
 #include "viewer/session/history.h"
+#include "viewer/surfaces/mask_neighbors.h"
 
 namespace kontur::viewer {
 namespace {
@@ -39,6 +40,17 @@ bool is_edited(const DrawnContour& before, const DrawnContour& after, const Stru
     return same != before;
 }
 
+/// Masks to be corrected that may follow this one.
+std::set<Id> masks_beside(const State& state, Id structure) {
+    std::set<Id> found;
+    const auto own = state.structures.find(structure);
+    const auto mask = own == state.structures.end() ? nullptr : mask_of(state, own->second);
+    if (!mask) return found;
+    for (const auto& [id, other] : state.structures)
+        if (const auto its = mask_of(state, other); its && id != structure && boxes_touch(*mask, *its)) found.insert(id);
+    return found;
+}
+
 /// Structures that have another body after the step, or another name.
 std::set<Id> changed_by(const SessionState& s, const Commit& step, const std::set<Id>& touched) {
     const State& state = s.project.state();
@@ -56,6 +68,9 @@ std::set<Id> changed_by(const SessionState& s, const Commit& step, const std::se
             if (touched.contains(pair.first)) changed.insert(pair.second);
             if (touched.contains(pair.second)) changed.insert(pair.first);
         }
+    if (state.borders.shared)
+        for (const Id id : touched)
+            for (const Id neighbor : masks_beside(state, id)) changed.insert(neighbor);
     for (const Id id : std::set<Id>(changed))
         for (const Id user : users_of(state, id)) changed.insert(user);
     return changed;

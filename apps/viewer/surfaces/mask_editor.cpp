@@ -25,6 +25,7 @@ struct Request {
     CorrectOptions options;
     std::shared_ptr<const Image> image;
     std::uint64_t step = 0;
+    std::optional<MaskExchanges> others{};
 };
 
 /// The voxels that corrections changed.
@@ -34,11 +35,16 @@ struct ChangedVoxels {
     double volume_ml = 0;
 };
 
-ChangedVoxels changed_by(const MaskChange& change, std::uint64_t step) {
-    ChangedVoxels changed{step, {}, change.report.volume_ml};
-    changed.offsets.reserve(change.voxels.size());
-    for (const MadeVoxel& voxel : change.voxels) changed.offsets.push_back(voxel.offset);
+ChangedVoxels changed_by(const std::vector<MadeVoxel>& voxels, const CorrectReport& report, std::uint64_t step) {
+    ChangedVoxels changed{step, {}, report.volume_ml};
+    changed.offsets.reserve(voxels.size());
+    for (const MadeVoxel& voxel : voxels) changed.offsets.push_back(voxel.offset);
     return changed;
+}
+
+std::int64_t voxels_more(const std::vector<MadeVoxel>& voxels) {
+    const auto inside = std::ranges::count_if(voxels, &MadeVoxel::is_inside);
+    return 2 * inside - std::ssize(voxels);
 }
 
 MaskStep step_between(const ChangedVoxels& before, const ChangedVoxels& after) {
@@ -128,12 +134,20 @@ struct MaskEditor::Worker {
         const std::shared_ptr<const VolumeOfMask> mask = opened_mask();
         const MaskChange change =
             mask_change({mask->whole, mask->surface, image}, request.corrections, request.options, work);
-        CorrectedMesh corrected = mask->mesh.corrected(change.lattice.get(), change.voxels, Work{.stop = stop});
+        const std::vector<MadeVoxel> voxels =
+            request.others ? made_and_followed(change.voxels, followed_voxels(*stored, *request.others)) : change.voxels;
+        CorrectedMesh made = mask->mesh.corrected(change.lattice.get(), voxels, Work{.stop = stop});
         auto edit = std::make_shared<MaskEdit>();
         edit->report = change.report;
-        edit->origins = origins_of(corrected.made_by);
-        edit->mesh = std::make_shared<const TriangleMesh>(std::move(corrected.mesh));
-        edit->step = step_of(changed_by(change, request.step), change.report);
+        edit->report.volume_ml += static_cast<double>(voxels_more(voxels) - voxels_more(change.voxels)) *
+                                  mask->whole.grid.voxel_volume_mm3() / 1000;
+        edit->followed = std::ssize(voxels) - std::ssize(change.voxels);
+        if (request.others)
+            edit->exchange =
+                std::make_shared<const MaskExchange>(exchange_of(mask->whole, change.voxels, Work{.stop = stop}));
+        edit->origins = origins_of(made.made_by);
+        edit->mesh = std::make_shared<const TriangleMesh>(std::move(made.mesh));
+        edit->step = step_of(changed_by(voxels, edit->report, request.step), change.report);
         return edit;
     }
 
@@ -174,10 +188,10 @@ MaskEditor::MaskEditor(std::shared_ptr<const StoredMask> mask, Listener listener
 MaskEditor::~MaskEditor() = default;
 
 std::uint64_t MaskEditor::edit(Corrections corrections, const CorrectOptions& options, std::shared_ptr<const Image> image,
-                               std::uint64_t step) {
+                               std::uint64_t step, std::optional<MaskExchanges> others) {
     const std::scoped_lock lock(worker_->mutex);
     worker_->stop_image.request_stop();
-    worker_->next = Request{++worker_->edits, std::move(corrections), options, std::move(image), step};
+    worker_->next = Request{++worker_->edits, std::move(corrections), options, std::move(image), step, std::move(others)};
     worker_->changed.notify_all();
     return worker_->edits;
 }

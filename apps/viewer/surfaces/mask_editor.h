@@ -11,6 +11,7 @@
 #include "kontur/correct_mask.h"
 #include "kontur/shape/mesh.h"
 #include "viewer/model/stored_mask.h"
+#include "viewer/surfaces/mask_neighbors.h"
 
 namespace kontur::viewer {
 
@@ -25,7 +26,9 @@ struct MaskEdit {
     std::shared_ptr<const TriangleMesh> mesh;
     std::vector<std::uint8_t> origins;  ///< of the mesh's points, as origins_of
     CorrectReport report;
-    std::optional<MaskStep> step;  ///< the last one; nothing where it is not known what was there before
+    std::shared_ptr<const MaskExchange> exchange;  ///< by its own corrections; null where borders are not shared
+    std::int64_t followed = 0;                     ///< voxels in which it follows others, and not its own corrections
+    std::optional<MaskStep> step;                  ///< the last one; nothing where it is not known what was there before
 };
 
 /// What a MaskEditor has to say about an edit.
@@ -58,10 +61,10 @@ public:
     MaskEditor& operator=(const MaskEditor&) = delete;
 
     /// The corrections are now these; the image takes part where there is one. `step` counts steps of the history, from 1:
-    /// edits of one step, as drafts of it, are one change; 0 is what was there when the session began. Returns the number of
-    /// the edit, counted from 1. Does not wait.
+    /// edits of one step, as drafts of it, are one change; 0 is what was there when the session began. `others`: that the
+    /// mask follows; unset: borders are not shared. Returns the number of the edit, counted from 1. Does not wait.
     std::uint64_t edit(Corrections corrections, const CorrectOptions& options, std::shared_ptr<const Image> image,
-                       std::uint64_t step);
+                       std::uint64_t step, std::optional<MaskExchanges> others = {});
     /// Throws Error(invalid_input), naming a contour (counted from 1), for contours that can be no corrections of the mask.
     void check(const Corrections& corrections) const;
     /// Waits until the newest edit has its final result.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "kontur/extract/surface_band.h"
 #include "kontur/sampling/sample_surface.h"
@@ -184,6 +185,7 @@ void Surfaces::start(SurfaceTask task) {
     else motions_.forget(structure);
     Follower& follower = followers_[structure];
     follower.is_outdated = false;
+    if (!task.mask) forget_mask_locked(follower);
     if (task.rule) return start_rule(follower, std::move(*task.rule));
     derivations_.forget(structure);
     if (task.mask) return start_mask(follower, std::move(task));
@@ -231,9 +233,15 @@ void Surfaces::wait() {
     for (bool is_done = false; !is_done;) {
         Editors editors;
         std::vector<std::shared_ptr<MaskEditor>> mask_editors;
+        const auto edits = [this] {
+            return std::accumulate(followers_.begin(), followers_.end(), std::uint64_t{0},
+                                   [](std::uint64_t sum, const auto& one) { return sum + one.second.last_edit; });
+        };
+        std::uint64_t edits_before = 0;
         {
             const std::scoped_lock lock(mutex_);
             is_done = later_.empty();
+            edits_before = edits();
             for (const auto& [structure, follower] : followers_)
                 if (follower.editor) editors.push_back(follower.editor);
             for (const auto& [structure, follower] : followers_)
@@ -243,7 +251,7 @@ void Surfaces::wait() {
         for (const auto& editor : editors) editor->wait();
         std::unique_lock lock(mutex_);
         sharing_changed_.wait(lock, [&] { return !is_sharing_wanted_ && !is_sharing_; });
-        is_done = is_done && later_.empty();
+        is_done = is_done && later_.empty() && edits() == edits_before;  // masks follow others when these are there
     }
     motions_.wait();
     derivations_.wait();

@@ -205,7 +205,9 @@ private:
         int tenths = 0;                      ///< ... and how far it was
         std::shared_ptr<LiveEditor> editor;  ///< null without contours: each one is a thread
         std::optional<double> smoothing{};   ///< with which the editor was made
-        std::shared_ptr<MaskEditor> mask_editor;  ///< in place of the editor, of a mask with corrections
+        std::shared_ptr<MaskEditor> mask_editor;         ///< in place of the editor, of a mask with corrections
+        std::shared_ptr<const MaskExchange> exchange{};  ///< of a mask: by its corrections
+        std::optional<MaskExchanges> others{};           ///< of a mask: that it follows; unset: borders are not shared
     };
     using Editors = std::vector<std::shared_ptr<LiveEditor>>;
     using Retired = std::vector<std::shared_ptr<void>>;
@@ -228,6 +230,12 @@ private:
     void start_mask(Follower& follower, SurfaceTask task);
     void begin_mask_editor(Follower& follower, Id structure, const std::shared_ptr<const StoredMask>& mask);
     void hear_mask(Id structure, std::uint64_t edit, const MaskUpdate& update);
+    void pass_on_locked(Follower& follower, const MaskUpdate& update);
+    const StoredMask* mask_of_locked(Id structure) const;
+    bool may_share_locked(Id a, Id b);
+    MaskExchanges others_of_locked(Id structure);
+    void let_masks_follow_locked();
+    void forget_mask_locked(Follower& follower);
 
     // Structures that rules make (surfaces_derived.cpp).
     void start_rule(Follower& follower, RuleTask task);
@@ -249,6 +257,7 @@ private:
     std::shared_ptr<const Image> image_;
     std::map<Id, Alone> alone_;
     Borders borders_;
+    std::map<std::pair<std::string, std::string>, bool> masks_that_may_share_;  ///< by their hashes
     std::vector<BorderPair> pairs_;
     bool is_sharing_wanted_ = false, is_sharing_ = false, is_ending_ = false;
     StopSource sharing_stop_;

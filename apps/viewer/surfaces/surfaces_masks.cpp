@@ -7,7 +7,7 @@
 #include "viewer/surfaces/corrected_mask.h"
 #include "viewer/surfaces/surfaces.h"
 
-// Surfaces of masks to be corrected. They share no borders.
+// Surfaces of masks to be corrected.
 
 namespace kontur::viewer {
 namespace {
@@ -43,6 +43,7 @@ void Surfaces::begin_mask_editor(Follower& follower, Id structure, const std::sh
 
 void Surfaces::start_mask(Follower& follower, SurfaceTask task) {
     const Id structure = task.structure;
+    if (borders_.shared && !follower.others) follower.others.emplace();
     try {
         begin_mask_editor(follower, structure, task.mask);
     } catch (const std::exception& error) {
@@ -52,8 +53,9 @@ void Surfaces::start_mask(Follower& follower, SurfaceTask task) {
             "There is no surface until the next edit: no thread to compute it could be started ({}).", error.what())};
         return publish_locked(std::move(none));
     }
-    follower.last_edit = follower.edits_before + follower.mask_editor->edit(corrections_of(task.set, task.how),
-                                                                            correct_options(task.how), image_, task.step);
+    follower.last_edit =
+        follower.edits_before + follower.mask_editor->edit(corrections_of(task.set, task.how), correct_options(task.how),
+                                                           image_, task.step, follower.others);
     follower.is_working = true;
     follower.tasks[follower.last_edit] = std::move(task);
 }
@@ -103,11 +105,78 @@ void Surfaces::hear_mask(Id structure, std::uint64_t edit, const MaskUpdate& upd
     const bool is_newest = follower.tasks.size() == 1 && !follower.is_outdated;
     if (!is_newest && has_full_resolution(surface.stage)) surface.stage = SurfaceStage::preview;
     publish_locked(std::move(surface));
-    if (!is_newest || update.asks_image) return;
-    finish_locked(follower, task);
+    const bool is_finished = is_newest && !update.asks_image;
+    if (is_finished) finish_locked(follower, task);
+    pass_on_locked(follower, update);
+    if (!is_finished || follower.is_working) return;
     // A project may hold many masks, and most of them are only looked at: each editor is a thread.
-    if (says_nothing(corrections_of(task.set, task.how))) retired_.push_back(std::move(follower.mask_editor));
+    const bool follows_others = follower.others && !follower.others->empty();
+    if (says_nothing(corrections_of(task.set, task.how)) && !follows_others)
+        retired_.push_back(std::move(follower.mask_editor));
     if ((borders_.shared || sharing_thread_.joinable()) && !is_busy_locked()) ask_to_share_locked();
+}
+
+/// Only what is final, and only what is new: two masks that follow each other would go on for ever.
+void Surfaces::pass_on_locked(Follower& follower, const MaskUpdate& update) {
+    if (update.kind != MaskUpdate::Kind::corrected || update.asks_image || !borders_.shared) return;
+    const auto& exchange = update.result->exchange;
+    if (!exchange || (follower.exchange && *follower.exchange == *exchange)) return;
+    follower.exchange = exchange;
+    let_masks_follow_locked();
+}
+
+const StoredMask* Surfaces::mask_of_locked(Id structure) const {
+    const auto found = followers_.find(structure);
+    if (found == followers_.end() || found->second.tasks.empty()) return nullptr;
+    return found->second.tasks.rbegin()->second.mask.get();
+}
+
+/// By a rule, or as the masks lie.
+bool Surfaces::may_share_locked(Id a, Id b) {
+    const StoredMask *first = mask_of_locked(a), *second = mask_of_locked(b);
+    if (const BorderRule* rule = borders_.rule_about(a, b)) return may_share(rule, *first, *second);
+    const auto [known, is_new] = masks_that_may_share_.try_emplace(std::minmax(first->hash(), second->hash()), false);
+    if (is_new) known->second = may_share(*first, *second);
+    return known->second;
+}
+
+/// Those whose corrections change anything of the mask.
+MaskExchanges Surfaces::others_of_locked(Id structure) {
+    const StoredMask& own = *mask_of_locked(structure);
+    MaskExchanges others;
+    for (const auto& [id, other] : followers_) {
+        const StoredMask* its = id != structure && other.exchange ? mask_of_locked(id) : nullptr;
+        if (!its || its->grid() != own.grid() || followed_voxels(own, {other.exchange}).empty()) continue;
+        if (may_share_locked(structure, id)) others.push_back(other.exchange);
+    }
+    return others;
+}
+
+/// Each mask whose neighbours have other corrections now is made anew. It follows these alone, so that this comes to an end.
+void Surfaces::let_masks_follow_locked() {
+    for (auto& [id, follower] : followers_) {
+        if (!mask_of_locked(id)) continue;
+        std::optional<MaskExchanges> others;
+        if (borders_.shared) others = others_of_locked(id);
+        if (others == follower.others) continue;
+        const bool is_other = others.value_or(MaskExchanges{}) != follower.others.value_or(MaskExchanges{});
+        const bool has_own = follower.exchange || !says_nothing(corrections_of(follower.tasks.rbegin()->second.set,
+                                                                               follower.tasks.rbegin()->second.how));
+        follower.others = std::move(others);
+        if (!borders_.shared) follower.exchange.reset();
+        if (!is_other && !has_own) continue;
+        const bool waits = follower.is_outdated;
+        start(SurfaceTask(follower.tasks.rbegin()->second));
+        follower.is_outdated = waits;  // there will be another task, too
+    }
+}
+
+/// It is none any more.
+void Surfaces::forget_mask_locked(Follower& follower) {
+    if (follower.tasks.empty() || !follower.tasks.rbegin()->second.mask) return;
+    follower.tasks.clear();
+    follower.others.reset();
+    if (std::exchange(follower.exchange, nullptr)) let_masks_follow_locked();
 }
 
 }  // namespace kontur::viewer

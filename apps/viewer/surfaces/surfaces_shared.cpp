@@ -41,6 +41,7 @@ void Surfaces::share_borders(const Borders& borders) {
     const std::scoped_lock lock(mutex_);
     if (borders == borders_) return;
     borders_ = borders;
+    let_masks_follow_locked();
     sharing_stop_.request_stop();
     if (!alone_.empty() && !is_busy_locked()) ask_to_share_locked();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -13,10 +14,14 @@ namespace kontur {
 struct CededVoxel {
     std::size_t offset;
     std::size_t neighbor;  ///< offset of the nearest voxel in which the structure was not; of several one of them
+
+    friend bool operator==(const CededVoxel&, const CededVoxel&) = default;
 };
 
-/// The voxels of `before` that are not in `after`, in memory order; none where `before` fills its whole grid. Whose border
-/// the structure shared there is what lies at their neighbours. Both masks are of one grid. Linear in the structure's box.
+/// Of the voxels that left `before`, by offset; none where it fills its whole grid. Whose border the structure shared there
+/// is what lies at their neighbours. The cost is that of a box around them, a little larger than it is deep.
+std::vector<CededVoxel> ceded_voxels(const Mask& before, std::span<const std::size_t> left, const Work& work = {});
+/// The same of all voxels of `before` that are not in `after`; both masks are of one grid.
 std::vector<CededVoxel> ceded_voxels(const Mask& before, const Mask& after, const Work& work = {});
 
 }  // namespace kontur

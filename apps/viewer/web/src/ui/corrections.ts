@@ -45,6 +45,14 @@ const REACHES = [0.5, 1, 2] as const;
 export function correctionEntries(correction: CorrectionState, { id, mask }: Structure, { goTo, call }: CorrectionServices): Piece[] {
   const entries: Piece[] = [piece("p", { class: "certainty", "data-test": "correction" }, asSentence(correctionText(correction)))];
   if (correction.step?.voxels) entries.unshift(piece("p", { class: "certainty", "data-test": "correction-step" }, asSentence(stepText(correction.step))));
+  if (correction.followed)
+    entries.push(
+      piece(
+        "p",
+        { class: "certainty", "data-test": "followed" },
+        asSentence(`${voxelsText(correction.followed)} went to it, or from it, with masks beside it`),
+      ),
+    );
   if (correction.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(correction.image)));
   for (const { at, volume_ml } of correction.dropped ? [] : correction.loose)
     entries.push(
@@ -90,14 +98,16 @@ export function correctionEntries(correction: CorrectionState, { id, mask }: Str
   return entries;
 }
 
-function correctionText({ text, voxels, move_mm }: CorrectionState): string {
+function correctionText({ text, voxels, move_mm, followed }: CorrectionState): string {
+  if (voxels === 0 && followed) return "no correction of its own";
   return voxels === 0 ? "nothing changed" : `all corrections: ${text}; up to ${move_mm.toFixed(1)} mm along the lines`;
 }
 
+const voxelsText = (voxels: number): string => (voxels === 1 ? "1 voxel" : `${voxels.toLocaleString("en")} voxels`);
+
 /** What the last step changed. */
 function stepText({ voxels, more_ml }: CorrectionStep): string {
-  const changed = voxels === 1 ? "1 voxel" : `${voxels.toLocaleString("en")} voxels`;
-  return `changed: ${changed}, ${volumeText(Math.abs(more_ml))} ${more_ml < 0 ? "less" : "more"}`;
+  return `changed: ${voxelsText(voxels)}, ${volumeText(Math.abs(more_ml))} ${more_ml < 0 ? "less" : "more"}`;
 }
 
 const asSentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;

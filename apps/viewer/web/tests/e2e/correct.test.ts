@@ -129,3 +129,42 @@ test("whole outlines, points and slices correct it, too", async () => {
   await viewer.saved();
   assert.equal(await page.locator("[data-contour]").count(), 1);
 });
+
+test("a mask beside it follows where borders are shared, and comes back", async () => {
+  const { page } = viewer;
+  await page.keyboard.press("Control+z"); // the other mask goes
+  await page.waitForFunction(() => document.querySelectorAll(".structure").length <= 1);
+  writeImage(file(), (p) => (isBall(p) ? (p[0] < 8 ? 2 : 5) : 0));
+  await viewer.import(file());
+  await page.click("[data-test=import-mask]");
+  await page.waitForFunction(() => document.querySelectorAll("[data-test=is-mask]").length === 2);
+  await viewer.surfaceShown();
+  const before = voxels((await viewer.export("labels.nii.gz")).bytes);
+  const count = (bytes: Buffer, label: number) => bytes.reduce((sum, value) => sum + Number(value === label), 0);
+  await page.locator("[data-test=share-borders]").click();
+  await viewer.waitForStep("undo", "Share borders");
+
+  await page.keyboard.press("f");
+  const mm = await viewer.pixels("axial", 1);
+  const first = page.locator(".structure", { hasText: "Label 2" }).locator(".structure-row");
+  await first.click();
+  // A stroke across the border between both, which goes back into the first one.
+  const stroke = Array.from({ length: 21 }, (_, n): [number, number] => [(8 - 12 * Math.sin((n * Math.PI) / 20)) * mm, (n - 10) * 2 * mm]);
+  await viewer.drag("axial", stroke);
+  await viewer.waitForContours(1);
+  await viewer.surfaceShown();
+  await viewer.saved();
+  const shared = voxels((await viewer.export("labels.nii.gz")).bytes);
+  const given = count(before, 2) - count(shared, 2);
+  assert.ok(given > 100, `${given} voxels leave the first`);
+  assert.equal(count(shared, 5) - count(before, 5), given, "the other one has them all");
+  await page.locator(".structure", { hasText: "Label 5" }).locator(".structure-row").click();
+  await page.locator("[data-test=followed]", { hasText: `${given.toLocaleString("en")} voxels` }).waitFor();
+  await viewer.surfaceShown();
+  await picture("correct_shared");
+
+  await page.keyboard.press("Control+z");
+  await page.locator("[data-test=followed]").waitFor({ state: "detached" });
+  assert.deepEqual(voxels((await viewer.export("labels.nii.gz")).bytes), before);
+  assert.deepEqual(viewer.complaints, []);
+});

@@ -17,6 +17,8 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/extract/mesh_mask.h"
+#include "kontur/io/contours_in_time.h"
+#include "kontur/io/dicom/dicom_phases.h"
 #include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
 #include "kontur/io/meshes/mesh.h"
@@ -158,6 +160,21 @@ void convert_to_mask(const ConvertCommand& command, const fs::path& output, cons
     console.note(write_structures({output, images, command.series, provenance}, one, console.work()));
 }
 
+/// Kontur's own .json, which has room for the frame of contours.
+bool keeps_frames(const fs::path& output) { return has_extension(output, ".json") && !has_extension(output, ".mrk.json"); }
+
+/// Contours that refer to slices of one frame of the images get that one.
+bool has_frames(const ConvertCommand& command) {
+    return !command.image.empty() && keeps_frames(command.output) && is_rtstruct(command.input.path);
+}
+
+ReadContours read_drawn(const ConvertCommand& command) {
+    const fs::path& path = command.input.path;
+    if (!has_frames(command)) return read_contours(path, command.contours);
+    const std::vector<DicomSeries> frames = list_dicom_frames(command.image, command.input.options.dicom);
+    return read_contours_in_time({path}, command.contours, frames.size() > 1 ? frames : std::vector<DicomSeries>{});
+}
+
 /// Throws Error(invalid_input) for an empty structure set, and for contours that formats without planes would bend: of an
 /// RTSTRUCT, which is one, the reader says it.
 void check_drawn(const ConvertCommand& command, const ContourSet& set) {
@@ -165,8 +182,7 @@ void check_drawn(const ConvertCommand& command, const ContourSet& set) {
     if (is_dicom_name(command.output) && set.contours.empty())
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{}: there is no contour; a structure set needs at least 1", input.string()));
-    const bool has_planes = has_extension(command.output, ".json") && !has_extension(command.output, ".mrk.json");
-    if (!has_planes && !is_rtstruct(input)) check_each_contour(input, set);
+    if (!keeps_frames(command.output) && !is_rtstruct(input)) check_each_contour(input, set);
 }
 
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
@@ -175,7 +191,7 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
         case FileKind::image:
             return convert_image(command, output, provenance, console);
         case FileKind::contours: {
-            ReadContours loaded = read_contours(command.input.path, command.contours);
+            ReadContours loaded = read_drawn(command);
             if (command.input.options.frame) set_frame(loaded.contours, static_cast<double>(*command.input.options.frame));
             console.note(loaded.notes);
             check_drawn(command, loaded.contours);
@@ -198,19 +214,25 @@ void check_options(const ConvertCommand& command, FileKind kind) {
     const bool is_dicom = is_dicom_name(command.output);
     check_holes(command.holes, is_dicom && kind == FileKind::contours);
     check_series(command.series, std::array{command.output});
-    if (!command.image.empty() && !is_dicom && kind != FileKind::image && !makes_mask(kind, command.output))
-        refuse("--image is for DICOM (.dcm), which refers to images, and for label maps, which get its grid");
+    const bool places = kind == FileKind::contours && has_frames(command);
+    if (!command.image.empty() && !is_dicom && !places && kind != FileKind::image && !makes_mask(kind, command.output))
+        refuse(
+            "--image is for DICOM (.dcm), which refers to images, for label maps, which get its grid, and for a structure "
+            "set, whose contours get its frames in kontur's .json");
+    if (places && !looks_like_dicom(command.image))
+        throw Error(ErrorKind::invalid_input, fmt::format("{} is no DICOM series, to whose frames {} could refer",
+                                                          command.image.string(), command.input.path.string()));
     if (command.image.empty() && makes_mask(kind, command.output))
         refuse("a mask of a mesh needs a grid; name an image that has it with --image");
     if (command.contours.roi && kind != FileKind::contours) refuse("--roi chooses from a structure set");
     if (command.contours.curves && kind != FileKind::contours) refuse("--curves is for 3D Slicer's markups (.mrk.json)");
-    const bool keeps_frame = has_extension(command.output, ".json") && !has_extension(command.output, ".mrk.json");
-    if (read.frame && kind != FileKind::image && !(kind == FileKind::contours && keeps_frame))
+    if (read.frame && kind != FileKind::image && !(kind == FileKind::contours && keeps_frames(command.output)))
         refuse("--frame is for images, and for contours in kontur's .json, which alone has room for it");
     if (read.frame && *read.frame < 1 && kind == FileKind::contours) refuse("--frame counts from 1");
     if ((read.prefer || read.allow_missing_geometry) && kind != FileKind::image)
         refuse("--prefer and --allow-missing-geometry are for images");
-    if ((read.dicom.series_uid || read.dicom.volume || read.dicom.resample_slices) && kind != FileKind::image && !is_dicom)
+    if ((read.dicom.series_uid || read.dicom.volume || read.dicom.resample_slices) && kind != FileKind::image && !is_dicom &&
+        !places)
         refuse("--series, --volume and --resample-slices are for DICOM images");
     if (command.label && kind != FileKind::image) refuse("--label chooses from a label map or a segmentation");
     if (command.more.empty()) return;

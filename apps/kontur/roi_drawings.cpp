@@ -5,11 +5,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "dicom_output.h"
 #include "drawn_on.h"
 #include "kontur/base/error.h"
+#include "kontur/io/dicom/dicom_phases.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/rtstruct_in_time.h"
+#include "kontur/io/image_frames.h"
 #include "own_grid.h"
 
 namespace kontur::app {
@@ -89,12 +95,47 @@ Box3 box_of(const std::vector<Roi>& rois) {
     return box;
 }
 
+/// "1, 5 and none".
+std::string listed(const std::set<std::optional<double>>& frames) {
+    std::string text;
+    for (const auto& frame : frames)
+        if (frame) text += fmt::format("{}{}", text.empty() ? "" : ", ", *frame);
+    return frames.contains(std::nullopt) ? text + " and none" : text;
+}
+
+/// Of the images where they are several and none was chosen; else empty.
+std::vector<DicomSeries> frames_of(const SegmentCommand& command, const Work& work) {
+    const auto& [path, options] = command.image;
+    const bool has_choice = options.frame || options.dicom.volume;
+    if (path.empty() || has_choice || !looks_like_dicom(path) || is_dicom_seg(path)) return {};
+    std::vector<DicomSeries> frames = list_dicom_frames(path, options.dicom, work);
+    return frames.size() > 1 ? frames : std::vector<DicomSeries>{};
+}
+
+/// Of images in time the frame is read in which all was drawn; contours need no frame then.
+void place_in_time(RoiDrawings& drawings, const std::vector<DicomSeries>& frames, const Work& work) {
+    std::set<std::optional<double>> drawn;
+    for (const Roi& roi : drawings.rois)
+        for (const Contour& contour : roi.contours.contours) drawn.insert(contour.frame);
+    if (frames.empty() || drawn == std::set<std::optional<double>>{std::nullopt}) return;
+    ImageInput& image = drawings.input;
+    if (drawn.size() > 1)
+        refuse(fmt::format("the ROIs refer to several frames of {}: {}; name one at a time with --roi", image.path.string(),
+                           listed(drawn)));
+    const double frame = **drawn.begin();
+    drawings.notes.push_back(fmt::format("all contours refer to frame {} of {}, which is read", frame, image.path.string()));
+    for (Roi& roi : drawings.rois)
+        for (Contour& contour : roi.contours.contours) contour.frame.reset();
+    image = source_of_frame(image, read_image_frames(image.path, image.options, work), static_cast<std::int64_t>(frame));
+}
+
 }  // namespace
 
 RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
     const std::filesystem::path& file = command.contours.front();
-    const StructureSet set = read_rtstruct(file);
-    RoiDrawings drawings{.notes = set.notes};
+    const std::vector<DicomSeries> frames = frames_of(command, work);
+    const StructureSet set = read_rtstruct_in_time(file, frames);
+    RoiDrawings drawings{.notes = set.notes, .input = command.image};
     if (command.all_rois) leave_out_empty(drawings, set);
     for (const std::string& name : names_of(command, set)) {
         try {
@@ -109,14 +150,15 @@ RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
             throw error.with_context(file.string());
         }
     }
+    place_in_time(drawings, frames, work);
     leave_out(drawings, command.all_rois, [](const ContourSet& contours) { check_contours(contours); });
-    for (std::string& note : frame_of_reference_notes(drawings.rois.front().frame_of_reference_uid, command.image))
+    for (std::string& note : frame_of_reference_notes(drawings.rois.front().frame_of_reference_uid, drawings.input))
         drawings.notes.push_back(std::move(note));
     if (command.image.path.empty()) {
         drawings.grid = own_grid(command, box_of(drawings.rois));
         return drawings;
     }
-    DrawnOn drawn_on = read_drawn_on(command.image, command.options.use_image, work, drawings.notes);
+    DrawnOn drawn_on = read_drawn_on(drawings.input, command.options.use_image, work, drawings.notes);
     drawings.grid = drawn_on.grid;
     drawings.image = std::move(drawn_on.image);
     leave_out(drawings, command.all_rois,

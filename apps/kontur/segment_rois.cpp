@@ -176,9 +176,11 @@ void check_roi_words(const SegmentCommand& command) {
                     fmt::format("{} ROIs are named; a label map has room for 65535", command.rois.size()));
 }
 
-void segment_rois(const SegmentCommand& command, Console& console) {
-    const Work work = console.work(command.threads);
-    const RoiDrawings drawings = read_roi_drawings(command, work);
+void segment_rois(const SegmentCommand& words, Console& console) {
+    const Work work = console.work(words.threads);
+    const RoiDrawings drawings = read_roi_drawings(words, work);
+    SegmentCommand command = words;
+    command.image = drawings.input;
     if (!command.rules.empty()) check_roi_derivation(command, drawings);
     RoiResults result = command.together ? fit_together(command, drawings, work) : fit_each(command, drawings, work);
     const std::vector<FittedRoi>& all = result.all;

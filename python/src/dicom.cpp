@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/io/dicom/dicom_phases.h"
 #include "kontur/io/dicom/dicom_series.h"
 #include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/dicom/rtstruct_in_time.h"
 #include "notes.h"
 #include "provenance.h"
 #include "roi_name.h"
@@ -116,8 +118,26 @@ label : str
     define(m, "is_rtstruct", "Whether a file is a DICOM RT structure set; reads a few elements only.", &is_rtstruct,
            py::arg("path"));
     define(
-        m, "read_rtstruct", "Reads a DICOM RT structure set with all its ROIs; holes are marked: StructureSet.",
-        [](const ExistingPath& path) { return unlocked([&] { return read_rtstruct(path); }); }, py::arg("path"));
+        m, "read_rtstruct", R"(Reads a DICOM RT structure set with all its ROIs; holes are marked.
+
+Parameters
+----------
+path : path
+images : path, optional
+    DICOM images in time, as `read_image_frames` takes them: contours that refer to slices of one frame alone get it.
+
+Returns
+-------
+StructureSet
+)",
+        [](const ExistingPath& path, const std::optional<ExistingPath>& images) {
+            return unlocked([&] {
+                if (!images) return read_rtstruct(path);
+                const std::vector<DicomSeries> frames = list_dicom_frames(*images);
+                return frames.size() > 1 ? read_rtstruct_in_time(path, frames) : read_rtstruct(path);
+            });
+        },
+        py::arg("path"), py::arg("images") = py::none());
     define(
         m, "select_roi", "The Roi of this name or number; without either, the only one that has contours.",
         [](const StructureSet& structures, const std::optional<RoiName>& name_or_number) {

@@ -322,6 +322,17 @@ def test_contours_of_a_structure_set_are_of_the_frame_whose_slices_they_refer_to
     segment("joined.nii.gz", tmp_path / "joined.dcm")
     assert numpy.array_equal(voxels(tmp_path / "joined.nii.gz"), voxels(tmp_path / "json.nii.gz"))
     assert f"all contours refer to frame 5 of {beats}, which is read" in segment("fifth.nii.gz", tmp_path / "5.dcm")
+    succeed("convert", tmp_path / "joined.dcm", tmp_path / "again.json", "--image", beats)
+    frames = [c["frame"] for plane in json.loads((tmp_path / "again.json").read_text())["planes"] for c in plane["contours"]]
+    assert sorted(frames) == [1] * 4 + [5] * 4
+    segment("again.nii.gz", tmp_path / "again.json")
+    assert numpy.array_equal(voxels(tmp_path / "again.nii.gz"), voxels(tmp_path / "json.nii.gz"))
+    assert "is no DICOM series, to whose frames" in kontur(
+        "convert", tmp_path / "joined.dcm", tmp_path / "no.json", "--image", tmp_path / "json.nii.gz").stderr
+    assert "which is read" in segment("all.nii.gz", tmp_path / "5.dcm", "--all-rois")
+    assert numpy.array_equal(voxels(tmp_path / "all.nii.gz"), voxels(tmp_path / "fifth.nii.gz"))
+    assert f"the ROIs refer to several frames of {beats}: 1, 5; name one at a time with --roi" in refusal(
+        tmp_path / "joined.dcm", "--image", beats, "--all-rois", "--output", tmp_path / "no.nii.gz")
     del contours[0].ContourImageSequence
     one.save_as(tmp_path / "partly.dcm")
     result = kontur("segment", tmp_path / "partly.dcm", "--image", beats, "--volume", 1, "--output", tmp_path / "partly.nii.gz")

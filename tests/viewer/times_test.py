@@ -8,7 +8,7 @@ import sys
 import nibabel
 import numpy
 import pydicom
-from support import Page, running
+from support import KONTUR, Page, ring, running
 
 SUPPORT = pathlib.Path(__file__).parents[1] / "support"
 sys.path.append(str(SUPPORT))
@@ -102,6 +102,26 @@ def test_series_that_are_phases_are_times_of_each_other(tmp_path):
         assert (image["times"], image["time"], page.session["cycle_frames"]) == (5, 2, 5)
         seen = [page.do("value", at=image["center"], **more)["values"][0] for more in ({}, *({"time": time} for time in range(5)))]
         assert [shade + 1024 for shade in seen] == [2, 0, 1, 2, 3, 4]
+
+
+def test_contours_of_a_structure_set_are_of_the_time_whose_slices_they_refer_to(tmp_path):
+    dicom.write_cine(tmp_path / "cine", 8, 9, 2.0, -8.0)
+    dicom.write_phases(tmp_path / "breath", 5, 9, 2.0, -8.0)
+    uids = {pydicom.dcmread(file).SeriesDescription: pydicom.dcmread(file).SeriesInstanceUID for file in (tmp_path / "breath").iterdir()}
+    planes = []
+    for z in (-2.0, 2.0):
+        plane = {"origin": [0, 0, z], "normal": [0, 0, 1], "u": [1, 0, 0], "v": [0, 1, 0]}
+        planes.append({**plane, "contours": [{"closed": True, "hole": False, "points": [list(p) for p in ring(plane, 5, 40)]}]})
+    (tmp_path / "drawn.json").write_text(json.dumps({"format": "kontur-contours", "version": 1, "planes": planes}))
+    for folder, drawn, opened, time in (("cine", ("--volume", "3"), ("--volume", "1"), 2),
+                                        ("breath", ("--series", uids["P4 Gated, 40.0%"]), ("--series", uids["P4 Gated, 0.0%"]), 2)):
+        subprocess.run([KONTUR, "convert", tmp_path / "drawn.json", tmp_path / f"{folder}.dcm", "--image", tmp_path / folder, *drawn], check=True)
+        with running(tmp_path, tmp_path / folder, *opened, "--project", tmp_path / f"{folder}.kontur") as server:
+            page = Page(server)
+            status, _, reply = server.request("POST", f"/api/import/contours?name={folder}.dcm&as=contours", (tmp_path / f"{folder}.dcm").read_bytes())
+            assert status == 200 and len(json.loads(reply)["structures"]) == 1, reply
+            page.do("ping")
+            assert [contour["time"] for contour in page.contours.values()] == [time, time]
 
 
 def test_the_files_of_a_folder_are_times_of_each_other(tmp_path):

@@ -61,7 +61,7 @@ void limit_this_process(pid_t server) {
     signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit then fails, and is told as such
 }
 
-constexpr int kWords = 9;
+constexpr int kWords = 11;
 
 std::vector<std::string> words_of(const Upload& upload) {
     std::string axes;
@@ -76,6 +76,8 @@ std::vector<std::string> words_of(const Upload& upload) {
             axes,
             upload.trace.preview ? "preview" : "import",
             upload.purpose == Upload::Purpose::correct ? "correct" : "contours",
+            upload.images,
+            upload.series_uid,
             std::to_string(getpid())};
 }
 
@@ -87,7 +89,9 @@ Upload upload_from(char** words) {
             {std::atoi(words[4]), has('a'), has('s'), has('c'), std::string_view(words[6]) == "preview"},
             false,
             {},
-            purpose == "correct" ? Upload::Purpose::correct : Upload::Purpose::contours};
+            purpose == "correct" ? Upload::Purpose::correct : Upload::Purpose::contours,
+            words[8],
+            words[9]};
 }
 
 /// The process that reads; killed where it is no longer wanted.
@@ -152,7 +156,7 @@ void check_ended_in_time(int status) {
 
 std::optional<Upload> begin_import_process(int argc, char** argv) {
     if (argc != kWords) return std::nullopt;
-    limit_this_process(std::atoi(argv[8]));
+    limit_this_process(std::atoi(argv[10]));
     return upload_from(argv);
 }
 

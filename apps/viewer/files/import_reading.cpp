@@ -15,8 +15,10 @@
 #include "kontur/extract/trace.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/dicom/dicom_identity.h"
+#include "kontur/io/dicom/dicom_phases.h"
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/dicom/rtstruct_in_time.h"
 #include "kontur/io/image.h"
 #include "kontur/io/images/nifti_extensions.h"
 #include "kontur/io/images/nrrd.h"
@@ -86,10 +88,20 @@ void forget_approvals(StructureSet& set, std::vector<std::string>& notes) {
     }
 }
 
+/// The image's frames; empty where it has one, or where they cannot be read any more.
+std::vector<DicomSeries> frames_of(const Upload& upload) {
+    if (upload.images.empty()) return {};
+    try {
+        return list_dicom_frames_with(upload.images, upload.series_uid);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
 /// Every region that has contours.
-ImportContent read_rtstruct_of(const fs::path& path) {
+ImportContent read_rtstruct_of(const fs::path& path, const Upload& upload) {
     ImportContent imported;
-    StructureSet set = read_rtstruct(path);
+    StructureSet set = read_rtstruct_in_time(path, frames_of(upload));
     imported.notes = std::move(set.notes);
     forget_approvals(set, imported.notes);
     for (Roi& roi : set.rois) {
@@ -173,7 +185,7 @@ ImportContent read_segments_of(const fs::path& path, const Upload& request) {
 }
 
 ImportContent read_contours_of(const fs::path& path, const Upload& request) {
-    if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path);
+    if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path, request);
     if (path.extension() == ".dcm" && is_dicom_seg(path)) return read_segments_of(path, request);
     ReadContours read = read_contours(path);
     for (std::string& note : check_and_tidy_moments(read.contours)) read.notes.push_back(std::move(note));

@@ -42,6 +42,8 @@ struct Upload {
     bool anyway = false;      ///< whether it comes in though it may not belong to the image
     std::string file{};       ///< its name, for what has none of its own; nothing is opened by it
     Purpose purpose = Purpose::contours;
+    std::string images{};      ///< folder or file of DICOM images in time, which a structure set may say frames of; "" else
+    std::string series_uid{};  ///< of those that are opened
 };
 
 /// Of structures that were labels of a map, by their place in the list.

@@ -281,7 +281,12 @@ Download exported(SessionState& s, const ExportChoice& choice, const StopToken& 
 ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const StopToken& stop) {
     const StatusLine line(s.pages.status_teller(), "Importing");
     const Work work{.stop = stop};
-    ImportContent imported = import_apart(bytes, upload, work);
+    Upload placed = upload;
+    if (s.image.series && s.image.times.count() > 1) {
+        placed.images = s.project.image().path;
+        placed.series_uid = s.image.series->series_uid;
+    }
+    ImportContent imported = import_apart(bytes, placed, work);
     work.check();
     const std::string unnamed = without_ending(upload.file, upload.extension);
     for (ContourSet& set : imported.sets)

@@ -175,4 +175,14 @@ std::vector<DicomSeries> list_dicom_frames(const fs::path& path, const DicomSeri
     return list_dicom_volumes(path, options, work);
 }
 
+std::vector<DicomSeries> list_dicom_frames_with(const fs::path& path, const std::string& series_uid, const Work& work) {
+    DicomSeriesOptions options{.series_uid = series_uid};
+    options.content = read_dicom_headers_of(path, work);
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored))
+        if (DicomPhases phases = list_dicom_phases(path, options, work); phases.series.size() > 1)
+            return std::move(phases.series);
+    return list_dicom_volumes(path, options, work);
+}
+
 }  // namespace kontur

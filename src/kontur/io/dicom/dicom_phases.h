@@ -30,4 +30,8 @@ DicomPhases list_dicom_phases(const std::filesystem::path& folder, const DicomSe
 std::vector<DicomSeries> list_dicom_frames(const std::filesystem::path& path, const DicomSeriesOptions& options = {},
                                            const Work& work = {});
 
+/// Among which the images of a series are frames: the phases of its folder of which it is one, else its own volumes.
+std::vector<DicomSeries> list_dicom_frames_with(const std::filesystem::path& path, const std::string& series_uid,
+                                                const Work& work = {});
+
 }  // namespace kontur

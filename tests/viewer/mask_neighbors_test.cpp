@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "kontur/correct/put_label.h"
-#include "viewer/drawn_contours.h"
+#include "viewer/files/structure_exports.h"
+#include "viewer/model/model.h"
 #include "viewer/surfaces/surfaces.h"
 
 namespace kontur::viewer {
@@ -87,6 +91,45 @@ TEST(MaskNeighbors, WhatWasCorrectedAndWhatIsTakenCountMore) {
         made_and_followed({{own, CorrectedVoxel::added_drawn}}, followed_voxels(right, {takes}));
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(all.front().how, CorrectedVoxel::added_drawn);
+}
+
+/// A project with both, the first of them corrected.
+State project_of(const Halves& halves, bool shared) {
+    State state;
+    state.use_image = false;
+    state.borders.shared = shared;
+    Id id = 0;
+    for (const Mask* mask : {&halves.left, &halves.right}) {
+        const auto stored = std::make_shared<const StoredMask>(*mask);
+        state.masks[stored->hash()] = stored;
+        Structure one;
+        one.id = ++id;
+        one.mask = StructureMask{.hash = stored->hash()};
+        state.structures[id] = one;
+    }
+    DrawnContour line = as_drawn(circle_at(14).contours.front());
+    line.id = 3;
+    line.structure = 1;
+    state.contours[line.id] = std::make_shared<const DrawnContour>(line);
+    return state;
+}
+
+TEST(MaskNeighbors, FilesHoldTheMaskThatFollows) {
+    const Halves halves;
+    const Image image{kGrid, std::vector<std::int16_t>(halves.left.values.size())};
+    const CorrectedMask expected = after_others(correct(halves.right, {}), StoredMask(halves.right), {halves.exchange});
+    const State state = project_of(halves, true);
+    const std::vector<FittedStructure> all = fit_structures(state, image, true, {});
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].made.mask.values, halves.corrected.mask.values);
+    EXPECT_EQ(all[1].made.mask.values, expected.mask.values);
+    EXPECT_EQ(all[1].corrected->origin, expected.origin);
+    EXPECT_EQ(fit_structure(state, 2, image, false, {}).made.mask.values, expected.mask.values) << "by itself, too";
+    const double ml = signed_volume_mm3(*all[1].made.mesh) / 1000;
+    EXPECT_NEAR(ml, expected.report.volume_ml, 0.05 * ml);
+    const State apart = project_of(halves, false);
+    EXPECT_EQ(fit_structures(apart, image, false, {})[1].made.mask.values, halves.right.values);
+    EXPECT_EQ(fit_structure(apart, 2, image, false, {}).made.mask.values, halves.right.values);
 }
 
 /// Two masks in the page's surfaces.

@@ -21,6 +21,7 @@
 #include "kontur/io/dicom/dicom_phases.h"
 #include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
+#include "kontur/io/image_frames.h"
 #include "kontur/io/meshes/mesh.h"
 #include "labels_on_grid.h"
 #include "outputs.h"
@@ -168,10 +169,19 @@ bool has_frames(const ConvertCommand& command) {
     return !command.image.empty() && keeps_frames(command.output) && is_rtstruct(command.input.path);
 }
 
-ReadContours read_drawn(const ConvertCommand& command) {
+/// The images; of several frames the first.
+ImageInput shown_in(const ConvertCommand& command, Console& console) {
+    const ImageInput images{command.image, console.noting(command.input.options)};
+    if (!has_frames(command)) return images;
+    return source_of_frame(images, read_image_frames(images.path, images.options, console.work()), 1);
+}
+
+ReadContours read_drawn(const ConvertCommand& command, const ImageInput& images) {
     const fs::path& path = command.input.path;
     if (!has_frames(command)) return read_contours(path, command.contours);
-    const std::vector<DicomSeries> frames = list_dicom_frames(command.image, command.input.options.dicom);
+    DicomSeriesOptions options = command.input.options.dicom;
+    options.content = images.options.dicom.content;
+    const std::vector<DicomSeries> frames = list_dicom_frames(images.path, options);
     return read_contours_in_time({path}, command.contours, frames.size() > 1 ? frames : std::vector<DicomSeries>{});
 }
 
@@ -191,11 +201,11 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
         case FileKind::image:
             return convert_image(command, output, provenance, console);
         case FileKind::contours: {
-            ReadContours loaded = read_drawn(command);
+            const ImageInput images = shown_in(command, console);
+            ReadContours loaded = read_drawn(command, images);
             if (command.input.options.frame) set_frame(loaded.contours, static_cast<double>(*command.input.options.frame));
             console.note(loaded.notes);
             check_drawn(command, loaded.contours);
-            const ImageInput images{command.image, console.noting(command.input.options)};
             for (const std::string& note : frame_of_reference_notes(loaded.frame_of_reference_uid, images))
                 console.warn(note);
             return console.note(write_contours(output, loaded.contours, images,

@@ -54,9 +54,9 @@ std::vector<MadeVoxel> followed_voxels(const StoredMask& own, const MaskExchange
             if (voxels.contains(offset)) followed[offset] = CorrectedVoxel::removed_carried;
             else followed.erase(offset);
         }
-    std::vector<MadeVoxel> made;
-    for (const auto& [offset, how] : followed) made.push_back({offset, how});
-    return made;
+    std::vector<MadeVoxel> result;
+    for (const auto& [offset, how] : followed) result.push_back({offset, how});
+    return result;
 }
 
 std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& made, const std::vector<MadeVoxel>& followed) {

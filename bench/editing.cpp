@@ -14,19 +14,9 @@ namespace kontur::bench {
 namespace {
 
 constexpr int kEdits = 24;
-constexpr double kDragMm = 4;
 
 /// Its time, and that of its stages.
 using Preview = std::pair<double, std::vector<std::pair<std::string, double>>>;
-
-/// The contour in the middle of the list, moved within its plane.
-ContourSet dragged(ContourSet set, int edit) {
-    Contour& contour = set.contours[set.contours.size() / 2];
-    const Vec3 by = kDragMm * std::sin(0.5 * edit) * contour.plane.u;
-    contour.plane.origin += by;
-    for (Vec3& p : contour.points) p += by;
-    return set;
-}
 
 /// First-order distances of the mesh's points from the surface of the function, ascending.
 std::vector<double> distances(const TriangleMesh& mesh, const ImplicitFunction& function) {

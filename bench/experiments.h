@@ -35,6 +35,10 @@ Json end_to_end(const PhantomCase& phantom, int repeat);
 /// previews are from the finished surfaces.
 Json editing(const PhantomCase& phantom, int repeat);
 
+/// While that contour is dragged: the preview, and what rules make of it, each with how much longer the processors work for
+/// both than for the preview alone.
+Json deriving(const PhantomCase& phantom, int repeat);
+
 /// Of the body's mask: until it can be corrected, from an edit to the corrected surface, and the same where nothing is kept
 /// from one edit to the next.
 Json correcting(const PhantomCase& phantom, int repeat);

@@ -27,9 +27,10 @@ struct Experiment {
     Json (*run)(const PhantomCase& phantom, int repeat);
     bool by_hand;  ///< also on the cases drawn by hand
 };
-constexpr Experiment kExperiments[] = {{"end_to_end", end_to_end, true},  {"editing", editing, true},
-                                       {"correcting", correcting, false}, {"solving", solving, false},
-                                       {"voxelizing", voxelizing, true},  {"reduction", reduction, true}};
+constexpr Experiment kExperiments[] = {{"end_to_end", end_to_end, true}, {"editing", editing, true},
+                                       {"deriving", deriving, false},    {"correcting", correcting, false},
+                                       {"solving", solving, false},      {"voxelizing", voxelizing, true},
+                                       {"reduction", reduction, true}};
 
 /// Every eighth point of each contour.
 PhantomCase thinned(PhantomCase phantom) {

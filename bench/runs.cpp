@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <numeric>
 
@@ -54,6 +55,15 @@ TimedSegmentation segment_repeatedly(int repeat, const std::function<Segmentatio
     });
     result.segmentation.report.seconds = median(runs, [](const Stages& a, const Stages& b) { return total(a) < total(b); });
     return result;
+}
+
+ContourSet dragged(ContourSet set, int edit) {
+    constexpr double kDragMm = 4;
+    Contour& contour = set.contours[set.contours.size() / 2];
+    const Vec3 by = kDragMm * std::sin(0.5 * edit) * contour.plane.u;
+    contour.plane.origin += by;
+    for (Vec3& p : contour.points) p += by;
+    return set;
 }
 
 std::vector<int> thread_counts() {

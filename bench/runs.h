@@ -26,6 +26,9 @@ struct TimedSegmentation {
 /// Segments as often as `measure` would.
 TimedSegmentation segment_repeatedly(int repeat, const std::function<Segmentation()>& segment_once);
 
+/// The contour in the middle of the list, moved within its plane as by a hand.
+ContourSet dragged(ContourSet set, int edit);
+
 /// 1 and the machine's number of threads.
 std::vector<int> thread_counts();
 

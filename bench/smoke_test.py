@@ -66,6 +66,12 @@ def test_a_correction_costs_less_where_the_mask_is_known(results):
     assert list(rows) == ["opened", "edited", "anew"] and min(row["cpu_s"] for row in rows.values()) > 0
 
 
+def test_rules_are_worked_out_beside_a_preview(results):
+    rows = {row["what"]: row for row in results["deriving"]}
+    assert set(rows) == {"preview", "margin", "spared", "six lengths", "cropped to the body"}
+    assert all((row["preview_and_this"] > 1) == (what != "preview") for what, row in rows.items())
+
+
 def test_full_quality_is_what_the_others_are_compared_with(results):
     assert all((row["jaccard"] == 1) == (row["quality"] == 1) for row in results["reduction"])
 

@@ -2,6 +2,7 @@
 """kontur.archive against an archive that misbehaves: the same results and sentences as find, fetch and send have."""
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import threading
@@ -13,7 +14,8 @@ import numpy
 import pytest
 
 pytest.importorskip("pydicom")
-sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tests/archive"))
+ROOT = pathlib.Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "tests/archive"))
 import support
 from misbehaving import CORRUPT, FAULTS, INPUT, IO, STOW_FAULTS, TOO_LARGE, Hostile, made_file
 from support import certificate, context_of, make_series, running
@@ -108,6 +110,20 @@ def test_a_series_comes_as_it_is_stored_and_is_read(tmp_path, archive, files):
     for wrong in ({"modality": "CT"}, {"series": archive.series, "output": tmp_path / "x"}):
         with pytest.raises(kontur.InvalidInputError, match="chooses"):
             kontur.archive.fetch(archive.series_address.split("/series")[0], **wrong)
+
+
+def test_the_documented_lines_find_fetch_and_send(tmp_path, archive, files, monkeypatch):
+    [program] = re.findall(r"```python[^\n]*\n(.*?)```", (ROOT / "docs/pacs.md").read_text(), re.DOTALL)
+    uids = []
+    for name in ("seg.dcm", "contours.dcm"):
+        file, uid = made_file(tmp_path, files)
+        file.rename(tmp_path / name)
+        uids.append(uid)
+    monkeypatch.chdir(tmp_path)
+    names = {"kontur": kontur, "archive": archive.address}
+    exec(program, names)
+    assert numpy.array_equal(names["image"].samples, kontur.read_image(files[0].parent).samples)
+    assert list(archive.stored) == uids
 
 
 def test_an_early_end_goes_on_where_it_was(tmp_path, archive):

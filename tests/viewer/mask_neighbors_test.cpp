@@ -121,15 +121,15 @@ TEST(MaskNeighbors, FilesHoldTheMaskThatFollows) {
     const State state = project_of(halves, true);
     const std::vector<FittedStructure> all = fit_structures(state, image, true, {});
     ASSERT_EQ(all.size(), 2U);
-    EXPECT_EQ(all[0].made.mask.values, halves.corrected.mask.values);
-    EXPECT_EQ(all[1].made.mask.values, expected.mask.values);
+    EXPECT_EQ(all[0].segmentation.mask.values, halves.corrected.mask.values);
+    EXPECT_EQ(all[1].segmentation.mask.values, expected.mask.values);
     EXPECT_EQ(all[1].corrected->origin, expected.origin);
-    EXPECT_EQ(fit_structure(state, 2, image, false, {}).made.mask.values, expected.mask.values) << "by itself, too";
-    const double ml = signed_volume_mm3(*all[1].made.mesh) / 1000;
+    EXPECT_EQ(fit_structure(state, 2, image, false, {}).segmentation.mask.values, expected.mask.values) << "by itself, too";
+    const double ml = signed_volume_mm3(*all[1].segmentation.mesh) / 1000;
     EXPECT_NEAR(ml, expected.report.volume_ml, 0.05 * ml);
     const State apart = project_of(halves, false);
-    EXPECT_EQ(fit_structures(apart, image, false, {})[1].made.mask.values, halves.right.values);
-    EXPECT_EQ(fit_structure(apart, 2, image, false, {}).made.mask.values, halves.right.values);
+    EXPECT_EQ(fit_structures(apart, image, false, {})[1].segmentation.mask.values, halves.right.values);
+    EXPECT_EQ(fit_structure(apart, 2, image, false, {}).segmentation.mask.values, halves.right.values);
 }
 
 /// Two masks in the page's surfaces.

@@ -29,12 +29,27 @@ TEST(BetweenBounds, ATubeGoesOnHalfWayBetweenItsRings) {
     const std::vector<Bound> bounds = between(rings({0, 25, 50}));
     EXPECT_GT(bounds.size(), 30u);
     for (const Bound& bound : bounds) {
+        if (bound.most_mm < 1) continue;  // of its wall
         const double height = dot(bound.position, kNormal);
         EXPECT_NEAR(std::min(std::abs(height - 12.5), std::abs(height - 37.5)), 0, 1e-6);
         const double depth = 5 - norm(bound.position - height * kNormal);
         EXPECT_NEAR(bound.least_mm, 0.35 * depth, 0.02);
         EXPECT_TRUE(bound.by_side);
     }
+}
+
+TEST(BetweenBounds, ATubeIsNoWiderBetweenItsRings) {
+    std::size_t count = 0;
+    for (const Bound& bound : between(rings({0, 25, 50}))) {
+        if (bound.most_mm > 1) continue;
+        const double height = dot(bound.position, kNormal);
+        EXPECT_NEAR(std::remainder(height, 6.25), 0, 1e-6);
+        EXPECT_NEAR(norm(bound.position - height * kNormal), 5, 0.01);
+        EXPECT_NEAR(bound.most_mm, 0.25, 0.1) << "a twentieth of the radius";
+        ++count;
+    }
+    EXPECT_GT(count, 100u);
+    for (const Bound& bound : between(rings({0, 25}))) EXPECT_GT(bound.most_mm, 1) << "two rings are no tube for sure";
 }
 
 TEST(BetweenBounds, AnArchFollowsTheCurveOfItsRings) {
@@ -47,7 +62,7 @@ TEST(BetweenBounds, AnArchFollowsTheCurveOfItsRings) {
     Vec3 middle;
     std::size_t count = 0;
     for (const Bound& bound : between(set))
-        if (std::atan2(bound.position.z, bound.position.x) < 36 * M_PI / 180) {
+        if (bound.by_side && std::atan2(bound.position.z, bound.position.x) < 36 * M_PI / 180) {
             middle += bound.position;
             ++count;
         }

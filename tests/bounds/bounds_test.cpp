@@ -202,6 +202,8 @@ TEST(PlaneBounds, SayNothingOfATubeBetweenRingsOfOtherPlanes) {
     EXPECT_GT(in_the_tube(plane_bounds(planes, regions, 2)), 2);
     std::vector<TubeWay> ways = tube_ways(regions);
     ASSERT_EQ(ways.size(), 1u);
+    EXPECT_GT(in_the_tube(plane_bounds(planes, regions, 2, ways)), 2) << "two rings are no tube for sure";
+    ways[0].chain = 1;
     const std::vector<Bound> bounds = plane_bounds(planes, regions, 2, ways);
     EXPECT_EQ(in_the_tube(bounds), 0);
     for (const Bound& bound : bounds)

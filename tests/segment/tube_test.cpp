@@ -88,6 +88,11 @@ INSTANTIATE_TEST_SUITE_P(
                          [](double t) {
                              return Vec3{40 * std::cos(M_PI * t), 0, 40 * std::sin(M_PI * t)};
                          }},
+                    // Without its walls' bounds its ends are a sixth too wide: .926.
+                    Tube{"Arch3RadiiApart", 6, 6, 0.96,
+                         [](double t) {
+                             return Vec3{39 * std::cos(2.3 * t), 0, 39 * std::sin(2.3 * t)};
+                         }},
                     // Each foot's plane says that nothing is there close beside the other foot.
                     Tube{"ArchOfNearlyOnePlane", 8, 6, 0.95, half_turn, 1e-3},
                     Tube{"ArchOfPlanesALittleTilted", 8, 6, 0.94, half_turn, 1e-2},
@@ -103,6 +108,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Tube{"Helix6RadiiApart", 4, 13, 0.93,
                          [](double t) {
                              return Vec3{25 * std::cos(4 * M_PI * t), 25 * std::sin(4 * M_PI * t), 60 * t};
+                         }},
+                    // The next turn lies 6 radii away: nearer than the next ring, 6.5 radii. Taken as looked at there: .84.
+                    Tube{"HelixOfCloseTurns", 5, 13, 0.93,
+                         [](double t) {
+                             return Vec3{37 * std::cos(10.5 * t), 37 * std::sin(10.5 * t), 51 * t};
                          }}),
     [](const auto& info) { return info.param.name; });
 

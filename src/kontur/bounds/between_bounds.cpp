@@ -15,6 +15,10 @@ constexpr double kValue = 0.35;  // of the depth; half leaves .01 of a straight 
 constexpr double kNoise = 0.2;
 constexpr double kNearby = 0.25;  // of the way: so near another plane knows
 constexpr std::size_t kMostProbes = 40;
+constexpr double kBulge = 0.05;      // of the radius: what a wall may stand out by
+constexpr double kWallNoise = 0.05;  // of the same
+constexpr std::size_t kRimPoints = 24;
+constexpr std::size_t kWallSteps[] = {2, 4};  // places of the way: a quarter and half of it
 
 bool others_show_nothing(const std::vector<DrawnRegion>& regions, const TubeWay& way, const Vec3& place) {
     for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -22,9 +26,36 @@ bool others_show_nothing(const std::vector<DrawnRegion>& regions, const TubeWay&
         const Plane& plane = regions[r].section.plane;
         if (std::abs(plane.distance_to(place)) > kNearby * way.length_mm) continue;
         const Point2 at = plane.to_uv(place);
-        if (!regions[r].search.contains(at) && regions[r].search.clearance(at) < way.length_mm) return true;
+        const double looked_at = 1 - (1 - kHidden) * way.hides(plane.normal);
+        if (!regions[r].search.contains(at) && regions[r].search.clearance(at) < looked_at * way.length_mm) return true;
     }
     return false;
+}
+
+/// From a ring's outline half-way to the other ring: the tube is no wider there than both rings make it. Of ways that lead
+/// on alone: where two sections stand by themselves, an organ is wider between them.
+void append_walls(const std::vector<DrawnRegion>& regions, const TubeWay& way, bool is_back, std::vector<Bound>& bounds) {
+    const RegionPart &from = is_back ? way.to : way.from, &to = is_back ? way.from : way.to;
+    const DrawnRegion &here = regions[from.region], &there = regions[to.region];
+    const Polygon2& line = here.section.outlines[from.probes.front().outline];
+    const double belief = way.belief * way.chain;
+    if (belief < kLeastBelief) return;
+    const double radius = way.radius_mm(), scale = to.radius_mm / from.radius_mm;
+    const std::size_t stride = std::max<std::size_t>(1, line.size() / kRimPoints);
+    for (std::size_t i = 0; i < line.size(); i += stride) {
+        const Vec3 off = here.section.plane.from_uv(line[i]) - from.center;
+        const Vec3 off_there = scale * (is_back ? turned(off, way.enters, way.leaves) : turned(off, way.leaves, way.enters));
+        const Point2 at = there.section.plane.to_uv(to.center + off_there);
+        const double flare = there.search.contains(at) ? there.search.clearance(at) : 0;
+        for (const std::size_t step : kWallSteps) {
+            const double part = static_cast<double>(step) / static_cast<double>(way.places.size() - 1);
+            const Vec3& middle = way.places[is_back ? way.places.size() - 1 - step : step];
+            const Vec3 place = middle + (1 - part) * off + part * off_there;
+            bounds.push_back({.position = place,
+                              .most_mm = part * flare + kBulge * radius,
+                              .noise_mm = faded(kWallNoise * radius, belief)});
+        }
+    }
 }
 
 void append(const std::vector<DrawnRegion>& regions, const TubeWay& way, std::vector<Bound>& bounds) {
@@ -49,7 +80,10 @@ void append(const std::vector<DrawnRegion>& regions, const TubeWay& way, std::ve
 
 std::vector<Bound> between_bounds(const std::vector<DrawnRegion>& regions, const std::vector<TubeWay>& ways) {
     std::vector<Bound> bounds;
-    for (const TubeWay& way : ways) append(regions, way, bounds);
+    for (const TubeWay& way : ways) {
+        append(regions, way, bounds);
+        for (const bool is_back : {false, true}) append_walls(regions, way, is_back, bounds);
+    }
     return bounds;
 }
 

@@ -178,9 +178,7 @@ private:
     /// The same where tubes of other planes pass near the place.
     Outside beside_tubes(const Vec3& place, double from_lines, Outside outside) const {
         for (const TubeWay* const way : ways_) {
-            // A plane between parallel ones is a slice of their stack, and shows what is there.
-            const double slanted = std::max(crossing(normal_, way->leaves), crossing(normal_, way->enters));
-            const double hides = slanted * way->belief * smooth_step(kHidden, 2 * kHidden, from_lines / way->length_mm);
+            const double hides = way->hides(normal_) * smooth_step(kHidden, 2 * kHidden, from_lines / way->length_mm);
             if (hides == 0) continue;
             const double apart = way->distance_mm(place) - way->radius_mm();
             if (apart >= outside.distance_mm) continue;

@@ -87,8 +87,8 @@ struct SectionCheck {
 /// A drawn plane is the truth in that plane. Three things are left out. Places nearer to the plane's lines than 0.45 % of
 /// the drawing's diameter do not count, nor those whose nearest line is an open contour. Where planes contradict each other
 /// no result is right: a region near a stretch of a common line on which two planes differ is explained by it. Where a plane
-/// is empty far from its lines, and planes that are no slices of its stack show the object near by, it says nothing: who draws
-/// rings across a vessel does not draw the other turns that their planes cut.
+/// is empty far from its lines, and planes that are no slices of its stack show the object near by, it says nothing: who
+/// draws rings across a vessel does not draw the other turns that their planes cut.
 ///
 /// `values` is asked in bulk, a few times, at about 2,000 places for each plane, the same ones for any number of threads.
 /// `exact`, if any, is asked again where a region looks wrong: where `values` interpolates. Throws Error(invalid_input) for

@@ -15,8 +15,10 @@ constexpr double kValue = 0.35;  // of the depth; half leaves .01 of a straight 
 constexpr double kNoise = 0.2;
 constexpr double kNearby = 0.25;  // of the way: so near another plane knows
 constexpr std::size_t kMostProbes = 40;
-constexpr double kBulge = 0.05;      // of the radius: what a wall may stand out by
-constexpr double kWallNoise = 0.05;  // of the same
+// Of a tube's radius: what its wall may stand out by. Of two arches and two straight tubes the mean Dice is .957; half .959,
+// which leaves less to tubes that do widen.
+constexpr double kBulge = 0.05;
+constexpr double kWallNoise = 0.05;  // of the same; half and twice .957
 constexpr std::size_t kRimPoints = 24;
 constexpr std::size_t kWallSteps[] = {2, 4};  // places of the way: a quarter and half of it
 

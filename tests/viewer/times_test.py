@@ -112,7 +112,7 @@ def test_contours_of_a_structure_set_are_of_the_time_whose_slices_they_refer_to(
     for z in (-2.0, 2.0):
         plane = {"origin": [0, 0, z], "normal": [0, 0, 1], "u": [1, 0, 0], "v": [0, 1, 0]}
         planes.append({**plane, "contours": [{"closed": True, "hole": False, "points": [list(p) for p in ring(plane, 5, 40)]}]})
-    (tmp_path / "drawn.json").write_text(json.dumps({"format": "kontur-contours", "version": 1, "planes": planes}))
+    (tmp_path / "drawn.json").write_text(json.dumps({"frame": "LPS mm", "structure": "ball", "planes": planes}))
     for folder, drawn, opened, time in (("cine", ("--volume", "3"), ("--volume", "1"), 2),
                                         ("breath", ("--series", uids["P4 Gated, 40.0%"]), ("--series", uids["P4 Gated, 0.0%"]), 2)):
         subprocess.run([KONTUR, "convert", tmp_path / "drawn.json", tmp_path / f"{folder}.dcm", "--image", tmp_path / folder, *drawn], check=True)

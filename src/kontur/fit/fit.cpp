@@ -180,7 +180,7 @@ private:
         PlaceOptions placing = place_;
         placing.slope_noise *= std::sqrt(share(points));
         solve_for(points, pick(result_.slopes, part.numbers), placing, solving);
-        const double counts_mm = tolerance_factor * *options_.bounds_tolerance_mm;
+        const double counts_mm = tolerance_factor * options_.bounds_tolerance_mm.value_or(2 * *options_.solve.tolerance_mm);
         return !is_last && bounds_.update(result_.function, counts_mm, held_counts, work_);
     }
 
@@ -277,7 +277,6 @@ FitOptions resolved(FitOptions options, double diameter_mm) {
     options.merge_distance_mm = options.merge_distance_mm.value_or(kMergeFraction * diameter_mm);
     if (!is_surface) options.solve.smoothing = options.solve.smoothing.value_or(0.0);
     options.solve = resolved(options.solve, diameter_mm);
-    options.bounds_tolerance_mm = options.bounds_tolerance_mm.value_or(2 * *options.solve.tolerance_mm);
     const bool may_leave_out = is_surface && *options.solve.smoothing > 0;
     options.line_tolerance_mm = options.line_tolerance_mm.value_or(may_leave_out ? kLineTolerance * diameter_mm : 0);
     check_place_options(place_options(options));

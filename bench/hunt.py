@@ -15,6 +15,7 @@ import sys
 
 import kontur
 import numpy as np
+from scipy import spatial
 
 import shapes
 import solids
@@ -92,7 +93,87 @@ def bean(random):
     return values
 
 
-SOLIDS = {kind.__name__: kind for kind in (pair, tower, branches, cylinder, cone, egg, dumbbell, pipe, cross, bean)}
+def spiral(random):
+    """A plate rolled up, a turn and a half of it."""
+    thick, turns = random.uniform(0.03, 0.06), random.uniform(1.2, 1.6)
+    angle = np.linspace(0, 2 * np.pi * turns, 400)
+    line = (0.1 + 0.35 * angle / angle[-1])[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    tree, half = spatial.cKDTree(line), random.uniform(0.2, 0.4)
+    return lambda p: common(thick - tree.query(p[:, :2])[0], half - np.abs(p[:, 2]))
+
+
+def torn(random):
+    """A sheet with a slit to its middle."""
+    half, wide = random.uniform(0.05, 0.1), random.uniform(0.04, 0.1)
+    return lambda p: common(box(p, (0.45, 0.4, half)), -common(wide - np.abs(p[:, 1]), p[:, 0]))
+
+
+def linked(random):
+    """Two rings, one through the other."""
+    radius, thick = random.uniform(0.2, 0.26), random.uniform(0.05, 0.08)
+    def ring(p, normal):
+        across = np.delete(p, normal, axis=1)
+        return thick - np.hypot(np.linalg.norm(across, axis=1) - radius, p[:, normal])
+    return lambda p: union(ring(p + (radius / 2, 0, 0), 2), ring(p - (radius / 2, 0, 0), 1))
+
+
+def ribbon(random):
+    """Twisted along z."""
+    twist, half = random.uniform(1, np.pi), (random.uniform(0.15, 0.3), random.uniform(0.04, 0.08), 0.45)
+    def values(p):
+        cosine, sine = np.cos(twist * p[:, 2]), np.sin(twist * p[:, 2])
+        return box(np.column_stack([cosine * p[:, 0] + sine * p[:, 1], cosine * p[:, 1] - sine * p[:, 0], p[:, 2]]), half) / 1.5
+    return values
+
+
+def mushroom(random):
+    stem, cap = random.uniform(0.05, 0.1), random.uniform(0.25, 0.4)
+    return lambda p: union(capsule(p, (0, 0, -0.4), (0, 0, 0.2), stem), common(ball(p, (0, 0, 0.05), cap), p[:, 2] - 0.1))
+
+
+def horseshoe(random):
+    radius, thick, half = random.uniform(0.25, 0.35), random.uniform(0.06, 0.12), random.uniform(0.08, 0.3)
+    def values(p):
+        arc = common(thick - np.abs(np.hypot(p[:, 0], p[:, 1]) - radius), p[:, 1])
+        legs = common(thick - np.abs(np.abs(p[:, 0]) - radius), -p[:, 1], p[:, 1] + 0.35)
+        return common(union(arc, legs), half - np.abs(p[:, 2]))
+    return values
+
+
+def cup(random):
+    outer = random.uniform(0.3, 0.45)
+    inner, high = outer * random.uniform(0.6, 0.85), random.uniform(0, 0.2)
+    return lambda p: common(ball(p, 0, outer), -ball(p, (0, 0, 0.05), inner), high - p[:, 2])
+
+
+def beads(random):
+    """Balls that touch, one after the other."""
+    radii = random.uniform(0.08, 0.16, 4)
+    heights = np.cumsum(np.concatenate([[0], radii[:-1] + radii[1:]])) * random.uniform(0.85, 0.98)
+    heights -= heights.mean()
+    return lambda p: union(*(ball(p, (0, 0, z), r) for z, r in zip(heights, radii)))
+
+
+def lobed(random):
+    """A star in every slice, with a hole inside, that turns and shrinks along z."""
+    lobes, depth, turn, hole = int(random.integers(3, 7)), random.uniform(0.1, 0.3), random.uniform(-1, 1), random.uniform(0.08, 0.14)
+    def values(p):
+        away, angle = np.hypot(p[:, 0], p[:, 1]), np.arctan2(p[:, 1], p[:, 0]) + turn * p[:, 2]
+        radius = 0.35 * (1 + depth * np.cos(lobes * angle)) * np.sqrt(np.maximum(0, 1 - (p[:, 2] / 0.45)**2))
+        return common((radius - away) / 2, away - hole, 0.45 - np.abs(p[:, 2]))
+    return values
+
+
+def slanted(random):
+    """Two cylinders that meet at an angle, as a vessel that leaves another."""
+    thick = random.uniform(0.06, 0.14, 2)
+    way = np.array([np.sin(a := random.uniform(0.4, 1.2)), 0, np.cos(a)])
+    return lambda p: union(capsule(p, (0, 0, -0.4), (0, 0, 0.4), thick[0]), capsule(p, (0, 0, -0.1), 0.45 * way, 0.8 * thick[1]))
+
+
+SOLIDS = {kind.__name__: kind
+          for kind in (pair, tower, branches, cylinder, cone, egg, dumbbell, pipe, cross, bean, spiral, torn, linked, ribbon, mushroom,
+                       horseshoe, cup, beads, lobed, slanted)}
 
 
 def moved(solid, off):
@@ -175,7 +256,24 @@ def odd(contours, random):
     return changed(contours, change), contours.contours[chosen].plane
 
 
-WAYS = ("plain", "plain", "stack", "slab", "empty", "empty", "reversed", "duplicated", "odd", "small", "large", "far")
+def nearly_parallel(solid, count, random):
+    """A stack of which each slice is tilted a little its own way, as by hand or by a patient who moved."""
+    planes = []
+    for plane in stack(solid, count, random):
+        normal = plane.normal + random.normal(0, 0.05, 3)
+        planes.append(kontur.Plane(plane.origin, normal / np.linalg.norm(normal)))
+    return planes
+
+
+def crossing_inside(solid, count, random):
+    """Planes about one axis through the middle, at small angles: they cross within the solid."""
+    first = random.uniform(0, np.pi)
+    angles = first + np.sort(random.uniform(0, 0.6 * np.pi, count))
+    return [kontur.Plane(solid.bounds.mean(axis=0), [np.cos(a), np.sin(a), 0]) for a in angles]
+
+
+WAYS = ("plain", "plain", "stack", "slab", "empty", "empty", "reversed", "duplicated", "odd", "small", "large", "far",
+        "nearly parallel", "crossing inside")
 
 
 def made_drawing(number, seed):
@@ -188,7 +286,7 @@ def made_drawing(number, seed):
     if way == "far":
         solid = moved(solid, random.uniform(-FAR_MM, FAR_MM, 3))
     count = int(random.integers(4, 14))
-    planner = {"stack": stack, "slab": slab}.get(way) or (stack, shapes.parallel, shapes.orthogonal, shapes.oblique)[random.integers(4)]
+    planner = {"stack": stack, "slab": slab, "nearly parallel": nearly_parallel, "crossing inside": crossing_inside}.get(way) or (stack, shapes.parallel, shapes.orthogonal, shapes.oblique)[random.integers(4)]
     planes = planner(solid, 3 * max(count // 3, 1) if planner is shapes.orthogonal else count, random)
     contours = shapes.exact_sections(solid, size_mm, planes)
     change = {"reversed": reversed_order, "duplicated": duplicated}.get(way)

@@ -50,7 +50,7 @@ export function correctionEntries(correction: CorrectionState, { id, mask }: Str
       piece(
         "p",
         { class: "certainty", "data-test": "followed" },
-        asSentence(`${voxelsText(correction.followed)} went to it, or from it, with masks beside it`),
+        asSentence(`with masks beside it ${voxelsText(correction.followed)} changed hands`),
       ),
     );
   if (correction.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(correction.image)));

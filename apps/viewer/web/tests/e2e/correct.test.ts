@@ -129,3 +129,40 @@ test("whole outlines, points and slices correct it, too", async () => {
   await viewer.saved();
   assert.equal(await page.locator("[data-contour]").count(), 1);
 });
+
+test("a mask beside it follows where borders are shared, and comes back", async () => {
+  const { page } = viewer;
+  await page.keyboard.press("Control+z"); // the other mask goes
+  await page.waitForFunction(() => document.querySelectorAll(".structure").length <= 1);
+  writeImage(file(), (p) => (isBall(p) ? (p[0] < 8 ? 2 : 5) : 0));
+  await viewer.import(file());
+  await page.click("[data-test=import-mask]");
+  await page.waitForFunction(() => document.querySelectorAll("[data-test=is-mask]").length === 2);
+  await viewer.surfaceShown();
+  const before = voxels((await viewer.export("labels.nii.gz")).bytes);
+  const count = (bytes: Buffer, label: number) => bytes.reduce((sum, value) => sum + Number(value === label), 0);
+  assert.ok(await page.locator("[data-test=share-borders]").isChecked());
+
+  await page.keyboard.press("f");
+  const mm = await viewer.pixels("axial", 1);
+  const choose = (name: string) => page.locator(".structure-row .name", { hasText: name }).click();
+  await choose("Label 2");
+  // A stroke from the border between both into the first one, and back to it.
+  const stroke = Array.from({ length: 21 }, (_, n): [number, number] => [(12 * Math.sin((n * Math.PI) / 20) - 8) * mm, (n - 10) * 2 * mm]);
+  await viewer.drag("axial", stroke);
+  await viewer.waitForContours(1);
+  await viewer.surfaceShown();
+  await viewer.saved();
+  const shared = voxels((await viewer.export("labels.nii.gz")).bytes);
+  const taken = count(shared, 5) - count(before, 5);
+  assert.ok(taken > 100 && taken <= count(before, 2) - count(shared, 2), `${taken} voxels go to the other`);
+  await choose("Label 5");
+  await page.locator("[data-test=followed]", { hasText: `${taken.toLocaleString("en")} voxels` }).waitFor();
+  await viewer.surfaceShown();
+  await picture("correct_shared");
+
+  await page.keyboard.press("Control+z");
+  await page.locator("[data-test=followed]").waitFor({ state: "detached" });
+  assert.deepEqual(voxels((await viewer.export("labels.nii.gz")).bytes), before);
+  assert.deepEqual(viewer.complaints, []);
+});

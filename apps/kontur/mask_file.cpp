@@ -165,9 +165,9 @@ std::vector<std::string> put(MaskFile& file, const CorrectedMask& corrected, boo
         file.structures.masks[file.chosen] = corrected.mask;
         return {};
     }
-    PutLabel made = put_label(std::move(file.labels), {file.label, file.mask, corrected.mask}, shared_borders, work);
-    file.labels = std::move(made.labels);
-    return sentences_of(made.passed, file.label);
+    PutLabel map = put_label(std::move(file.labels), {file.label, file.mask, corrected.mask}, shared_borders, work);
+    file.labels = std::move(map.labels);
+    return sentences_of(map.passed, file.label);
 }
 
 std::vector<std::string> write_mask_file(const fs::path& path, const MaskFile& file, const CorrectCommand& command,

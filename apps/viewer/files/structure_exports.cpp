@@ -281,8 +281,8 @@ std::vector<FittedStructure> corrected_masks(const State& state, const ExportTar
         if (structure.mask) masks.push_back(corrected(state, structure, target, work));
     if (state.borders.shared && masks.size() > 1) share_mask_borders(masks, state, work);
     for (FittedStructure& one : masks) {
-        one.made.mask = on_grid(one.corrected->mask, target.grid, work);
-        if (target.mesh) one.made.mesh = mesh_of(one.corrected->mask, work);
+        one.segmentation.mask = on_grid(one.corrected->mask, target.grid, work);
+        if (target.mesh) one.segmentation.mesh = mesh_of(one.corrected->mask, work);
     }
     return masks;
 }

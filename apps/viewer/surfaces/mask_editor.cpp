@@ -136,7 +136,7 @@ struct MaskEditor::Worker {
             mask_change({mask->whole, mask->surface, image}, request.corrections, request.options, work);
         const std::vector<MadeVoxel> voxels =
             request.others ? made_and_followed(change.voxels, followed_voxels(*stored, *request.others)) : change.voxels;
-        CorrectedMesh made = mask->mesh.corrected(change.lattice.get(), voxels, Work{.stop = stop});
+        CorrectedMesh corrected = mask->mesh.corrected(change.lattice.get(), voxels, Work{.stop = stop});
         auto edit = std::make_shared<MaskEdit>();
         edit->report = change.report;
         edit->report.volume_ml += static_cast<double>(voxels_more(voxels) - voxels_more(change.voxels)) *
@@ -145,8 +145,8 @@ struct MaskEditor::Worker {
         if (request.others)
             edit->exchange =
                 std::make_shared<const MaskExchange>(exchange_of(mask->whole, change.voxels, Work{.stop = stop}));
-        edit->origins = origins_of(made.made_by);
-        edit->mesh = std::make_shared<const TriangleMesh>(std::move(made.mesh));
+        edit->origins = origins_of(corrected.made_by);
+        edit->mesh = std::make_shared<const TriangleMesh>(std::move(corrected.mesh));
         edit->step = step_of(changed_by(voxels, edit->report, request.step), change.report);
         return edit;
     }

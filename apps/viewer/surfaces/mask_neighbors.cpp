@@ -19,10 +19,10 @@ bool reaches(const MaskExchange& other, const StoredMask& own) {
 
 }  // namespace
 
-MaskExchange exchange_of(const Mask& before, const std::vector<MadeVoxel>& made, const Work& work) {
+MaskExchange exchange_of(const Mask& before, const std::vector<MadeVoxel>& corrected_voxels, const Work& work) {
     MaskExchange exchange;
     std::vector<std::size_t> left;
-    for (const MadeVoxel& voxel : made) (voxel.is_inside() ? exchange.taken : left).push_back(voxel.offset);
+    for (const MadeVoxel& voxel : corrected_voxels) (voxel.is_inside() ? exchange.taken : left).push_back(voxel.offset);
     exchange.ceded = ceded_voxels(before, left, work);
     return exchange;
 }
@@ -59,25 +59,26 @@ std::vector<MadeVoxel> followed_voxels(const StoredMask& own, const MaskExchange
     return result;
 }
 
-std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& made, const std::vector<MadeVoxel>& followed) {
+std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& corrected_voxels,
+                                         const std::vector<MadeVoxel>& followed) {
     std::vector<MadeVoxel> all;
-    std::ranges::set_union(made, followed, std::back_inserter(all), {}, &MadeVoxel::offset, &MadeVoxel::offset);
+    std::ranges::set_union(corrected_voxels, followed, std::back_inserter(all), {}, &MadeVoxel::offset, &MadeVoxel::offset);
     return all;
 }
 
 std::vector<MadeVoxel> made_voxels(const CorrectedMask& corrected) {
-    std::vector<MadeVoxel> made;
+    std::vector<MadeVoxel> changed;
     for (std::size_t n = 0; n < corrected.origin.size(); ++n)
         if (const auto how = static_cast<CorrectedVoxel>(corrected.origin[n]);
             how != CorrectedVoxel::outside && how != CorrectedVoxel::inside)
-            made.push_back({n, how});
-    return made;
+            changed.push_back({n, how});
+    return changed;
 }
 
 CorrectedMask after_others(CorrectedMask corrected, const StoredMask& own, const MaskExchanges& others) {
-    const std::vector<MadeVoxel> made = made_voxels(corrected), followed = followed_voxels(own, others);
+    const std::vector<MadeVoxel> changed = made_voxels(corrected), followed = followed_voxels(own, others);
     if (followed.empty()) return corrected;
-    for (const MadeVoxel& voxel : made_and_followed(made, followed)) {
+    for (const MadeVoxel& voxel : made_and_followed(changed, followed)) {
         corrected.mask.values[voxel.offset] = voxel.is_inside();
         corrected.origin[voxel.offset] = static_cast<std::uint8_t>(voxel.how);
     }

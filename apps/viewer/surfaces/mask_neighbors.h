@@ -26,7 +26,7 @@ struct MaskExchange {
 };
 using MaskExchanges = std::vector<std::shared_ptr<const MaskExchange>>;
 
-MaskExchange exchange_of(const Mask& before, const std::vector<MadeVoxel>& made, const Work& work = {});
+MaskExchange exchange_of(const Mask& before, const std::vector<MadeVoxel>& corrected_voxels, const Work& work = {});
 
 /// Whether masks may share a border: they are of one grid and have no voxel in common.
 bool may_share(const StoredMask& a, const StoredMask& b);
@@ -40,7 +40,8 @@ bool boxes_touch(const StoredMask& a, const StoredMask& b);
 std::vector<MadeVoxel> followed_voxels(const StoredMask& own, const MaskExchanges& others);
 
 /// Of corrections, and of what follows others: by offset, each voxel once. What was corrected counts more.
-std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& made, const std::vector<MadeVoxel>& followed);
+std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& corrected_voxels,
+                                         const std::vector<MadeVoxel>& followed);
 
 /// The corrected mask after others, with its volume and its Dice.
 CorrectedMask after_others(CorrectedMask corrected, const StoredMask& own, const MaskExchanges& others);

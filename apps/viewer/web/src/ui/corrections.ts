@@ -47,11 +47,7 @@ export function correctionEntries(correction: CorrectionState, { id, mask }: Str
   if (correction.step?.voxels) entries.unshift(piece("p", { class: "certainty", "data-test": "correction-step" }, asSentence(stepText(correction.step))));
   if (correction.followed)
     entries.push(
-      piece(
-        "p",
-        { class: "certainty", "data-test": "followed" },
-        asSentence(`with masks beside it ${voxelsText(correction.followed)} changed hands`),
-      ),
+      piece("p", { class: "certainty", "data-test": "followed" }, asSentence(`with masks beside it ${voxelsText(correction.followed)} changed hands`)),
     );
   if (correction.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(correction.image)));
   for (const { at, volume_ml } of correction.dropped ? [] : correction.loose)

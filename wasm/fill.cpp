@@ -30,11 +30,11 @@ json to_json(const FillReport& report) {
 Result* filled(std::string_view text, const void* labels, const void* image) {
     const FillRequest request = fill_request_from(text);
     const Image painted_on = image ? image_from(image, request.image_type, request.grid) : Image{};
-    const Filling result = fill_labels(image_from(labels, request.labels_type, request.grid), image ? &painted_on : nullptr,
-                                       request.options, told_work());
+    const Filling filling = fill_labels(image_from(labels, request.labels_type, request.grid), image ? &painted_on : nullptr,
+                                        request.options, told_work());
     auto result = std::make_unique<Result>();
-    result->about = {{"report", to_json(result.report)}, {"type", type_of(result.labels)}};
-    result->voxels = bytes_of(result.labels);
+    result->about = {{"report", to_json(filling.report)}, {"type", type_of(filling.labels)}};
+    result->voxels = bytes_of(filling.labels);
     return result.release();
 }
 

@@ -22,8 +22,10 @@ def needed_sources(build):
     members = set(re.findall(r"libkontur\.a\(([a-z0-9_]+\.cpp)\.o\)", pathlib.Path(os.environ["KONTUR_CORE_MAP"]).read_text()))
     stand_ins = {"fmt_definitions.cpp", "no_compression.cpp", "sha256_without_openssl.cpp", "solvers_without_openblas.cpp"}
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        if pathlib.Path(entry["file"]).name in members | stand_ins:
-            yield re.search(r" -o (\S+)", entry["command"])[1]
+        output = re.search(r" -o (\S+)", entry["command"])[1]
+        is_for_a_level = "kontur_level_" in output  # the same sources again, for other instruction sets of this machine
+        if pathlib.Path(entry["file"]).name in members | stand_ins and not is_for_a_level:
+            yield output
 
 
 def cross_built():
@@ -50,6 +52,11 @@ def voxels(folder, case):
     return numpy.frombuffer((folder / f"{case}.nii").read_bytes()[352:], numpy.uint8)
 
 
+def points(folder, case):
+    planes = json.loads((folder / f"{case}.json").read_text())["planes"]
+    return numpy.concatenate([contour["points"] for plane in planes for contour in plane["contours"]])
+
+
 def test_masks_are_this_machines_but_for_single_voxels(tmp_path):
     if "KONTUR_AARCH64" not in os.environ:
         pytest.skip("KONTUR_AARCH64 is not set")
@@ -58,7 +65,7 @@ def test_masks_are_this_machines_but_for_single_voxels(tmp_path):
     arm = run(tmp_path / "arm", emulator, cross_built())
     own = run(tmp_path / "own", os.environ["KONTUR_CORE_PROGRAM"])
     for case in CASES:
-        assert (arm / f"{case}.json").read_bytes() == (own / f"{case}.json").read_bytes()
+        assert numpy.abs(points(arm, case) - points(own, case)).max() < 1e-12  # mm: the last digit of a sine
         there, here = voxels(arm, case), voxels(own, case)
         assert there.size == here.size and here.sum() > 1000
         differences = int((there != here).sum())

@@ -42,37 +42,41 @@ struct Caller {
 /// The command's options are keywords here: "--give-up-s" is give_up_s.
 std::string in_keywords(const std::string& sentence) {
     static const std::regex id(R"((^|[ (])--id\b)"), option(R"((^|[ (])--([a-z]+)(?:-([a-z]+))?(?:-([a-z]+))?\b)");
-    std::string text = std::regex_replace(sentence, id, "$1patient_id"), made;
+    std::string text = std::regex_replace(sentence, id, "$1patient_id"), result;
     std::smatch found;
     while (std::regex_search(text, found, option)) {
-        made += found.prefix().str() + found[1].str() + found[2].str();
+        result += found.prefix().str() + found[1].str() + found[2].str();
         for (const int n : {3, 4})
-            if (found[n].matched) made += "_" + found[n].str();
+            if (found[n].matched) result += "_" + found[n].str();
         text = found.suffix();
     }
-    return made + text;
+    return result + text;
+}
+
+/// What `task` makes; its errors name keywords.
+template <class Task>
+auto with_keywords(const Task& task) {
+    try {
+        return task();
+    } catch (const Error& error) {
+        throw Error(error.kind(), in_keywords(error.what()));
+    }
 }
 
 /// Runs `task` with a connection to the address' service.
 template <class Task>
 auto run_there(const Caller& caller, const Address& address, const Task& task) {
-    try {
+    return with_keywords([&] {
         return run({caller.progress, caller.stop, 0}, [&](const Work& work) {
             Http http(address,
                       archive::read_access(caller.credentials.value_or(""), caller.ca.value_or(""), caller.give_up_s));
             return task(http, work);
         });
-    } catch (const Error& error) {
-        throw Error(error.kind(), in_keywords(error.what()));
-    }
+    });
 }
 
 Address address_from(const std::string& text) {
-    try {
-        return archive::parse_address(text);
-    } catch (const Error& error) {
-        throw Error(error.kind(), in_keywords(error.what()));
-    }
+    return with_keywords([&] { return archive::parse_address(text); });
 }
 
 py::list find(const Address& address, const archive::StudyFilter& filter, const Caller& caller, const py::object& on_note) {
@@ -141,7 +145,7 @@ template <class Entry>
 class FoundType {
 public:
     FoundType(py::module_& m, const char* name, const char* help) : type_(m, name, help) {
-        text("address", help_of_address(), &Found<Entry>::address);
+        type_.def_readonly("address", &Found<Entry>::address, "str: for `find` and `fetch`.");
         type_.def("__repr__", [](const py::object& self) {
             return py::str("<{} {!r}>").format(py::type::of(self).attr("__name__"), self.attr("address"));
         });
@@ -154,11 +158,6 @@ public:
     }
 
 private:
-    static const char* help_of_address() { return "str: for `find` and `fetch`."; }
-    void text(const char* name, const char* help, std::string Found<Entry>::*member) {
-        type_.def_readonly(name, member, help);
-    }
-
     py::class_<Found<Entry>> type_;
 };
 
@@ -235,11 +234,7 @@ CancelledError
             const archive::StudyFilter filter{std::move(name), std::move(patient_id), std::move(date), std::move(modality),
                                               most};
             const Address parsed = address_from(address);
-            try {
-                archive::check_can_be_listed(parsed, filter);
-            } catch (const Error& error) {
-                throw Error(error.kind(), in_keywords(error.what()));
-            }
+            with_keywords([&] { archive::check_can_be_listed(parsed, filter); });
             return find(parsed, filter, {credentials, ca, give_up_s, py::none(), stop}, on_note);
         },
         py::arg("address"), py::kw_only(), py::arg("name") = defaults.name, py::arg("patient_id") = defaults.patient_id,

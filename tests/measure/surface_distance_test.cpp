@@ -35,10 +35,13 @@ TEST(SurfaceDistance, IsTheLeastOverAllTriangles) {
     std::vector<Vec3> points;
     for (int n = 0; n < 300; ++n) points.push_back({somewhere(random), somewhere(random), somewhere(random)});
     const std::vector<double> found = distances_mm(points, tetrahedron);
+    const std::vector<Vec3> places = nearest_places(points, tetrahedron);
     for (std::size_t n = 0; n < points.size(); ++n) {
         const double sampled = sampled_mm(points[n], tetrahedron);
         EXPECT_LE(std::abs(found[n]), 1.0205 * sampled) << "at most 2 % too far";
         EXPECT_GT(std::abs(found[n]), sampled - 0.6) << "the samples lie 0.9 mm apart";
+        EXPECT_LE(distance(points[n], places[n]), std::abs(found[n]) + 1e-12) << "places are the very nearest ones";
+        EXPECT_GE(1.0205 * distance(points[n], places[n]), std::abs(found[n]));
     }
 }
 

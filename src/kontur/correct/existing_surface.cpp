@@ -21,10 +21,6 @@ constexpr double kLeastVoxels = 0.05;     ///< f0 at a voxel's centre is no near
 constexpr std::int64_t kMargin = 3;       ///< voxels around the object at least
 constexpr double kWindowLengths = 1;      ///< around it. Half and 3.2 times: mean Dice within .00005 (bench/correct.py)
 
-std::optional<IndexBox> inside_box(const Mask& mask) {
-    return inside_box(mask.grid.size, std::span(mask.values), [](std::uint8_t v) { return v != 0; });
-}
-
 /// The box grown by `margin`; beyond the grid by kMargin voxels at most.
 IndexBox grown(IndexBox box, const Index3& margin, const Index3& size) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,21 +28,6 @@ IndexBox grown(IndexBox box, const Index3& margin, const Index3& size) {
         box.high[axis] = std::min(box.high[axis] + margin[axis], std::max(box.high[axis], size[axis] - 1) + kMargin);
     }
     return box;
-}
-
-/// Which voxels of a box lie inside; beyond the mask's grid none does.
-std::vector<std::uint8_t> inside_of(const Mask& mask, const IndexBox& box) {
-    const Index3 size = box.size(), whole = mask.grid.size;
-    std::vector<std::uint8_t> inside(static_cast<std::size_t>(size.i * size.j * size.k));
-    for (std::int64_t k = 0; k < size.k; ++k)
-        for (std::int64_t j = 0; j < size.j; ++j) {
-            const std::int64_t y = j + box.low.j, z = k + box.low.k;
-            if (y < 0 || z < 0 || y >= whole.j || z >= whole.k) continue;
-            for (std::int64_t x = std::max(box.low.i, std::int64_t{0}); x <= std::min(box.high.i, whole.i - 1); ++x)
-                inside[static_cast<std::size_t>(x - box.low.i + size.i * (j + size.j * k))] =
-                    mask.values[mask.grid.offset(x, y, z)] != 0;
-        }
-    return inside;
 }
 
 /// Distances of the voxels that are not marked from the surface of the marked ones, mm; 0 for marked ones. The surface lies
@@ -133,7 +114,7 @@ ExistingSurface::ExistingSurface(const Mask& mask, const Work& work) : grid_(mas
 
     object_ = *object;
     const IndexBox tight = grown(*object, {1, 1, 1}, grid_.size);
-    const std::vector<std::uint8_t> inside = inside_of(mask, tight);
+    const std::vector<std::uint8_t> inside = voxels_inside(mask, tight);
     const Grid tight_grid = grid_of(grid_, tight);
     radius_mm_ = radius_of(inside, tight_grid);
     voxels_inside_ = std::count(inside.begin(), inside.end(), 1);
@@ -152,7 +133,7 @@ ExistingSurface::ExistingSurface(const Mask& mask, const Work& work) : grid_(mas
     window_ = grid_of(grid_, wide);
     to_window_ = window_.index_to_mm.inverse();
 
-    const std::vector<std::uint8_t> marked = inside_of(mask, wide);
+    const std::vector<std::uint8_t> marked = voxels_inside(mask, wide);
     values_ = distances_from(marked, window_, work);
     for (float& value : values_) value = -value;
     for (std::size_t n = 0; n < depths.size(); ++n)

@@ -18,23 +18,6 @@ namespace {
 
 constexpr std::int64_t kAround = 2;  ///< voxels outside of the object in its box
 
-std::optional<IndexBox> inside_box(const Mask& mask) {
-    return inside_box(mask.grid.size, std::span(mask.values), [](std::uint8_t v) { return v != 0; });
-}
-
-/// 0 and 1 of a box that may reach beyond the grid.
-std::vector<std::uint8_t> inside_of(const Mask& mask, const IndexBox& box, const IndexBox& inside) {
-    const Index3 size = box.size();
-    std::vector<std::uint8_t> values(static_cast<std::size_t>(size.i * size.j * size.k));
-    for (std::int64_t k = inside.low.k; k <= inside.high.k; ++k)
-        for (std::int64_t j = inside.low.j; j <= inside.high.j; ++j) {
-            const auto* from = mask.values.data() + mask.grid.offset(inside.low.i, j, k);
-            auto* to = values.data() + (inside.low.i - box.low.i) + size.i * (j - box.low.j + size.j * (k - box.low.k));
-            std::transform(from, from + inside.size().i, to, [](std::uint8_t v) { return v != 0; });
-        }
-    return values;
-}
-
 /// Sums with the weights 1, 2, 1 along one axis of three rows of bytes.
 void sum_along(const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to, const Index3& size, int axis,
                const Work& work) {
@@ -66,7 +49,7 @@ float level_of(int sum, int whole, bool inside) {
 Levels smoothed_levels(const Mask& mask, const IndexBox& inside, int left_out_axis, const Work& work) {
     const IndexBox box = grown(inside, {kAround, kAround, kAround});
     const Index3 size = box.size();
-    const std::vector<std::uint8_t> voxels = inside_of(mask, box, inside);
+    const std::vector<std::uint8_t> voxels = voxels_inside(mask, box);
     std::vector<std::uint8_t> sums = voxels, others(voxels.size());
     int whole = 1;
     for (int axis = 0; axis < 3; ++axis) {

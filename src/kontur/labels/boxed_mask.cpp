@@ -34,8 +34,7 @@ BoxedMask part_of(const BoxedMask& object, const IndexBox& box, const Grid& grid
 }  // namespace
 
 BoxedMask trimmed(const BoxedMask& object, const Grid& grid) {
-    std::optional<IndexBox> box =
-        inside_box(object.box.size(), std::span(object.mask.values), [](std::uint8_t v) { return v != 0; });
+    std::optional<IndexBox> box = inside_box(object.mask);
     if (!box) box = IndexBox{};
     for (int axis = 0; axis < 3; ++axis) box->low[axis] += object.box.low[axis], box->high[axis] += object.box.low[axis];
     return part_of(object, *box, grid);

@@ -13,6 +13,10 @@
 namespace kontur {
 namespace {
 
+/// Of distances. From inside of a ball all of its triangles are about as far: to find the very nearest one would look at
+/// thousands.
+constexpr double kExactness = 0.98;
+
 using Weights = std::array<double, 3>;
 
 /// The place of the triangle that is nearest to p, as weights of its corners (Ericson 2005, section 5.1.5).
@@ -33,7 +37,9 @@ Weights nearest_place(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c
 
 class TriangleTree {
 public:
-    explicit TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
+    /// `exactness`: the nearest distance over the one that is found, at least.
+    TriangleTree(const TriangleMesh& mesh, double exactness)
+        : mesh_(mesh), exactness_(exactness), order_(mesh.triangles.size()) {
         std::iota(order_.begin(), order_.end(), std::uint32_t{0});
         std::vector<Vec3> middles;
         middles.reserve(order_.size());
@@ -42,24 +48,24 @@ public:
         build(0, order_.size(), middles);
     }
 
-    double distance_mm(const Vec3& p) const {
+    struct Hit {
+        double squared = std::numeric_limits<double>::infinity();
+        bool is_inside = false;
+        Vec3 place;
+    };
+
+    Hit nearest(const Vec3& p) const {
         Hit hit;
         search(0, p, hit);
-        return hit.is_inside ? -std::sqrt(hit.squared) : std::sqrt(hit.squared);
+        return hit;
     }
 
 private:
     static constexpr std::size_t kLeafSize = 8;
-    /// From inside of a ball all of its triangles are about as far: to find the very nearest one would look at thousands.
-    static constexpr double kExactness = 0.98;
 
     struct Node {
         Box3 box;
         std::size_t begin, end, second_child = 0;  ///< the first child follows its parent; 0: a leaf
-    };
-    struct Hit {
-        double squared = std::numeric_limits<double>::infinity();
-        bool is_inside = false;
     };
 
     std::array<Vec3, 3> corners(std::size_t triangle) const {
@@ -112,7 +118,7 @@ private:
 
     void search(std::size_t n, const Vec3& p, Hit& hit) const {
         const Node& node = nodes_[n];
-        if (to_box(node.box, p) >= kExactness * kExactness * hit.squared) return;
+        if (to_box(node.box, p) >= exactness_ * exactness_ * hit.squared) return;
         if (node.second_child == 0) {
             for (std::size_t i = node.begin; i < node.end; ++i) look_at(order_[i], p, hit);
             return;
@@ -128,30 +134,44 @@ private:
     void look_at(std::size_t triangle, const Vec3& p, Hit& hit) const {
         const auto [a, b, c] = corners(triangle);
         const Weights w = nearest_place(p, a, b, c);
-        const Vec3 away = p - (w[0] * a + w[1] * b + w[2] * c);
+        const Vec3 place = w[0] * a + w[1] * b + w[2] * c, away = p - place;
         const double squared = dot(away, away);
         if (squared >= hit.squared) return;
         const auto& [i, j, k] = mesh_.triangles[triangle];
         const Vec3 normal = w[0] * mesh_.normals[i] + w[1] * mesh_.normals[j] + w[2] * mesh_.normals[k];
-        hit = {squared, dot(away, normal) < 0};
+        hit = {squared, dot(away, normal) < 0, place};
     }
 
     const TriangleMesh& mesh_;
+    double exactness_;
     std::vector<std::uint32_t> order_;
     std::vector<Node> nodes_;
 };
 
+/// What `value` makes of the nearest place of each point.
+template <class Value>
+auto of_each(std::span<const Vec3> points, const TriangleMesh& surface, double exactness, const Value& value) {
+    std::vector<decltype(value(TriangleTree::Hit{}))> values;
+    if (surface.triangles.empty()) return values;
+    const TriangleTree tree(surface, exactness);
+    values.resize(points.size());
+    parallel_for(static_cast<std::int64_t>(points.size()), 1024, 0, [&](std::int64_t begin, std::int64_t end) {
+        for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+            values[n] = value(tree.nearest(points[n]));
+    });
+    return values;
+}
+
 }  // namespace
 
 std::vector<double> distances_mm(std::span<const Vec3> points, const TriangleMesh& surface) {
-    if (surface.triangles.empty()) return {};
-    const TriangleTree tree(surface);
-    std::vector<double> distances(points.size());
-    parallel_for(static_cast<std::int64_t>(points.size()), 1024, 0, [&](std::int64_t begin, std::int64_t end) {
-        for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-            distances[n] = tree.distance_mm(points[n]);
+    return of_each(points, surface, kExactness, [](const TriangleTree::Hit& hit) {
+        return hit.is_inside ? -std::sqrt(hit.squared) : std::sqrt(hit.squared);
     });
-    return distances;
+}
+
+std::vector<Vec3> nearest_places(std::span<const Vec3> points, const TriangleMesh& surface) {
+    return of_each(points, surface, 1, [](const TriangleTree::Hit& hit) { return hit.place; });
 }
 
 }  // namespace kontur

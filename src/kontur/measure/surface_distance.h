@@ -13,4 +13,8 @@ namespace kontur {
 /// number.
 std::vector<double> distances_mm(std::span<const Vec3> points, const TriangleMesh& surface);
 
+/// The surface's places nearest to these points. None for a surface without triangles. From the middle of a ball, where all
+/// places are as near, each triangle is looked at.
+std::vector<Vec3> nearest_places(std::span<const Vec3> points, const TriangleMesh& surface);
+
 }  // namespace kontur

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "kontur/shape/index_box.h"
+#include "kontur/shape/volume.h"
 
 namespace kontur {
 
@@ -27,5 +29,11 @@ std::optional<IndexBox> inside_box(const Index3& size, std::span<const Value> va
         }
     return box;
 }
+
+/// The smallest box around the object of a mask; nullopt where it is empty.
+std::optional<IndexBox> inside_box(const Mask& mask);
+
+/// Which voxels of a box lie inside: 1 or 0, `i` fastest. Beyond the mask's grid none does.
+std::vector<std::uint8_t> voxels_inside(const Mask& mask, const IndexBox& box);
 
 }  // namespace kontur

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What JavaScript calls (package/src/index.ts). Text is UTF-8, requests and answers are JSON; an object is its address, 0
+// What JavaScript calls (package/src/kontur.ts). Text is UTF-8, requests and answers are JSON; an object is its address, 0
 // where it failed, which kontur_error tells then.
 #include <cstdint>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Answer, Call } from "./calls.js";
 import {
   type Contours,
-  type ErrorKind,
   type Filled,
   type FillRequest,
   type Grid,
@@ -12,15 +12,6 @@ import {
   type Progress,
   type Request,
 } from "./types.js";
-import type { Call } from "./worker.js";
-
-interface Answer {
-  id: number;
-  result?: unknown;
-  error?: { kind: ErrorKind; message: string };
-  stage?: string;
-  fraction?: number;
-}
 
 interface Waiting {
   resolve(result: unknown): void;

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // kontur in a worker: what KonturWorker starts. Answers one call after the other.
-import { type Contours, type FillRequest, Kontur, KonturError, type Mesh, type Plane, type Request, type Surface } from "./index.js";
-
-export type Call =
-  | { name: "load"; module: WebAssembly.Module }
-  | { name: "segment"; request: Request; tells: boolean }
-  | { name: "fill"; request: FillRequest; tells: boolean }
-  | { name: "preview" | "finish"; contours: Contours }
-  | { name: "outlines"; mesh: Pick<Mesh, "points" | "triangles">; planes: Plane[] }
-  | { name: "outline"; plane: Plane }
-  | { name: "values"; points: Float64Array };
+import type { Call } from "./calls.js";
+import { Kontur, type Surface } from "./kontur.js";
+import { KonturError } from "./types.js";
 
 export interface Port {
   postMessage(message: unknown, transfer?: Transferable[]): void;

@@ -26,12 +26,12 @@ TEST(InsideBox, IsTheSmallestAroundTheObject) {
     EXPECT_FALSE(inside_box(Mask{{{5, 4, 3}, {}}, std::vector<std::uint8_t>(60)}));
 }
 
-TEST(VoxelsInside, AreThoseOfTheMaskAndNoneBeyondItsGrid) {
+TEST(ObjectVoxels, AreThoseOfTheMaskAndNoneBeyondItsGrid) {
     const Mask mask = speckled();
     for (const IndexBox& box :
          {IndexBox{{0, 0, 0}, {4, 3, 2}}, IndexBox{{1, 1, 0}, {3, 2, 1}}, IndexBox{{-2, -1, -3}, {6, 5, 4}},
           IndexBox{{5, 0, 0}, {7, 3, 2}}, IndexBox{{-3, 0, 0}, {-1, 3, 2}}}) {
-        const std::vector<std::uint8_t> inside = voxels_inside(mask, box);
+        const std::vector<std::uint8_t> inside = object_voxels(mask, box);
         std::size_t n = 0;
         for (std::int64_t k = box.low.k; k <= box.high.k; ++k)
             for (std::int64_t j = box.low.j; j <= box.high.j; ++j)

@@ -114,7 +114,7 @@ ExistingSurface::ExistingSurface(const Mask& mask, const Work& work) : grid_(mas
 
     object_ = *object;
     const IndexBox tight = grown(*object, {1, 1, 1}, grid_.size);
-    const std::vector<std::uint8_t> inside = voxels_inside(mask, tight);
+    const std::vector<std::uint8_t> inside = object_voxels(mask, tight);
     const Grid tight_grid = grid_of(grid_, tight);
     radius_mm_ = radius_of(inside, tight_grid);
     voxels_inside_ = std::count(inside.begin(), inside.end(), 1);
@@ -133,7 +133,7 @@ ExistingSurface::ExistingSurface(const Mask& mask, const Work& work) : grid_(mas
     window_ = grid_of(grid_, wide);
     to_window_ = window_.index_to_mm.inverse();
 
-    const std::vector<std::uint8_t> marked = voxels_inside(mask, wide);
+    const std::vector<std::uint8_t> marked = object_voxels(mask, wide);
     values_ = distances_from(marked, window_, work);
     for (float& value : values_) value = -value;
     for (std::size_t n = 0; n < depths.size(); ++n)

@@ -49,7 +49,7 @@ float level_of(int sum, int whole, bool inside) {
 Levels smoothed_levels(const Mask& mask, const IndexBox& inside, int left_out_axis, const Work& work) {
     const IndexBox box = grown(inside, {kAround, kAround, kAround});
     const Index3 size = box.size();
-    const std::vector<std::uint8_t> voxels = voxels_inside(mask, box);
+    const std::vector<std::uint8_t> voxels = object_voxels(mask, box);
     std::vector<std::uint8_t> sums = voxels, others(voxels.size());
     int whole = 1;
     for (int axis = 0; axis < 3; ++axis) {

@@ -9,7 +9,7 @@ std::optional<IndexBox> inside_box(const Mask& mask) {
     return inside_box(mask.grid.size, std::span(mask.values), [](std::uint8_t v) { return v != 0; });
 }
 
-std::vector<std::uint8_t> voxels_inside(const Mask& mask, const IndexBox& box) {
+std::vector<std::uint8_t> object_voxels(const Mask& mask, const IndexBox& box) {
     const Index3 size = box.size(), whole = mask.grid.size;
     std::vector<std::uint8_t> inside(static_cast<std::size_t>(size.i * size.j * size.k));
     const std::int64_t first = std::max(box.low.i, std::int64_t{0}), last = std::min(box.high.i, whole.i - 1);

@@ -34,6 +34,6 @@ std::optional<IndexBox> inside_box(const Index3& size, std::span<const Value> va
 std::optional<IndexBox> inside_box(const Mask& mask);
 
 /// Which voxels of a box lie inside: 1 or 0, `i` fastest. Beyond the mask's grid none does.
-std::vector<std::uint8_t> voxels_inside(const Mask& mask, const IndexBox& box);
+std::vector<std::uint8_t> object_voxels(const Mask& mask, const IndexBox& box);
 
 }  // namespace kontur

@@ -224,9 +224,7 @@ image : Image, optional
     Decides how far corrections are carried, up to 2.5 times as far as without it. It is asked from three planes on, and
     believed as far as it helps in planes left out.
 @threads
-progress : callable, optional
-    As for `segment`.
-stop : object with is_set(), optional
+@progress
 @options
 
 Returns

@@ -112,9 +112,7 @@ structures : dict of str to Mask or Segmentation
 image : Image, optional
     What body() looks at; on the same grid.
 @threads
-progress : callable, optional
-    As for `segment`.
-stop : object with is_set(), optional
+@progress
 
 Returns
 -------
@@ -161,9 +159,7 @@ Parameters
 structures : dict of str to Mask or Segmentation
     Of one grid.
 @threads
-progress : callable, optional
-    As for `segment`.
-stop : object with is_set(), optional
+@progress
 
 Returns
 -------

@@ -96,9 +96,7 @@ image : Image, optional
 return_report : bool
     Also return the FillReport.
 @threads
-progress : callable, optional
-    As for `segment`.
-stop : object with is_set(), optional
+@progress
 @options
 
 Returns

@@ -162,9 +162,7 @@ times : sequence of float
 images : sequence of Image, optional
     One for each of the times, on the grid; without them the contours do alone.
 @threads
-progress : callable, optional
-    As for `segment`.
-stop : object with is_set(), optional
+@progress
 @options
 
 Returns

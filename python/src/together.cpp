@@ -106,9 +106,7 @@ rules : sequence of (structure, relation, structure)
     voxels, too) or 'overlap'. What no rule says follows from the masks: inside from 80 % of the smaller one on, overlap from
     25 % on, else exclusive.
 @threads
-progress : callable, optional
-    As for `segment`.
-stop : object with is_set(), optional
+@progress
 @options
 
 Returns

@@ -206,11 +206,6 @@ private:
 
 fs::path part_folder(const fs::path& folder) { return fs::path(folder.string() + ".part"); }
 
-std::string how_far(const FetchedSeries& series, const fs::path& folder) {
-    return fmt::format("{} of {} objects are in {}, and the same again goes on from there", series.arrived, series.objects,
-                       part_folder(folder).string());
-}
-
 void fetch_series(Http& http, const Address& series, const fs::path& folder, FetchedSeries& progress, const Work& work) {
     const fs::path part = part_folder(folder);
     const bool is_new = is_empty_or_missing(folder) && is_empty_or_missing(part);
@@ -230,6 +225,21 @@ void fetch_series(Http& http, const Address& series, const fs::path& folder, Fet
         throw Error(ErrorKind::io, fmt::format("{} sends {} of the {} objects that it has", http.service().host(),
                                                progress.arrived, progress.objects));
     put_in_place(part, folder);
+}
+
+std::size_t fetch_into_folder(Http& http, const Address& series, const fs::path& folder, const Work& work,
+                              const std::function<void(const std::string&)>& on_interruption) {
+    FetchedSeries progress;
+    try {
+        fetch_series(http, series, folder, progress, work);
+    } catch (const Error& error) {
+        if (progress.arrived == 0) throw;
+        const std::string how_far = fmt::format("{} of {} objects are in {}, and the same again goes on from there",
+                                                progress.arrived, progress.objects, part_folder(folder).string());
+        if (error.kind() == ErrorKind::cancelled && on_interruption) on_interruption(how_far);
+        throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_far));
+    }
+    return progress.objects;
 }
 
 void fetch_instance(Http& http, const Address& instance, const fs::path& file, const Work& work) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "archive/http.h"
@@ -20,9 +21,6 @@ struct FetchedSeries {
 /// Where a series lies until it is whole: the folder's name and ".part".
 std::filesystem::path part_folder(const std::filesystem::path& folder);
 
-/// "3 of 9 objects are in FOLDER.part, and the same again goes on from there".
-std::string how_far(const FetchedSeries& series, const std::filesystem::path& folder);
-
 /// Fetches what is missing of a series into `part_folder(folder)`, as UID.dcm, then renames that to `folder`: this exists
 /// only when whole. What came before an error stays, and the next call goes on from there; `progress` is kept true all the
 /// while. A folder that is there already is looked at only: it must be empty or have all that the archive lists, else
@@ -32,6 +30,12 @@ std::string how_far(const FetchedSeries& series, const std::filesystem::path& fo
 /// object of the archive's list, and for one that comes twice; Error(too_large) for an object over 4 GiB; Error(io).
 void fetch_series(Http& http, const Address& series, const std::filesystem::path& folder, FetchedSeries& progress,
                   const Work& work);
+
+/// The same into a folder that a user named; returns how many objects it has. Where some came before an error, its sentence
+/// says where they are and that the same again goes on from there. `on_interruption`, if given, gets that sentence before a
+/// cancellation is thrown, and may throw something else.
+std::size_t fetch_into_folder(Http& http, const Address& series, const std::filesystem::path& folder, const Work& work,
+                              const std::function<void(const std::string& how_far)>& on_interruption = {});
 
 /// One object into a file, whole or not at all; one that is there stays. Throws as `fetch_series`.
 void fetch_instance(Http& http, const Address& instance, const std::filesystem::path& file, const Work& work);

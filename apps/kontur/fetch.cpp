@@ -15,16 +15,10 @@ namespace fs = std::filesystem;
 using archive::Address;
 
 void fetch_one(archive::Http& http, const Address& series, const fs::path& folder, Console& console) {
-    archive::FetchedSeries progress;
-    try {
-        archive::fetch_series(http, series, folder, progress, console.work());
-    } catch (const Error& error) {
-        if (progress.arrived == 0) throw;
-        if (error.kind() == ErrorKind::cancelled)
-            throw EndedEarly("interrupted; " + how_far(progress, folder), exit_code(error.kind()));
-        throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_far(progress, folder)));
-    }
-    console.print(fmt::format("{}: {}\n", folder.string(), counted(progress.objects, "object")));
+    const std::size_t objects = archive::fetch_into_folder(
+        http, series, folder, console.work(),
+        [](const std::string& how_far) { throw EndedEarly("interrupted; " + how_far, exit_code(ErrorKind::cancelled)); });
+    console.print(fmt::format("{}: {}\n", folder.string(), counted(objects, "object")));
 }
 
 /// Each series into a folder of its own.

@@ -101,22 +101,15 @@ py::list find(const Address& address, const archive::StudyFilter& filter, const 
     return all;
 }
 
-void fetch_one(Http& http, const Address& series, const fs::path& folder, const Work& work) {
-    archive::FetchedSeries progress;
-    try {
-        archive::fetch_series(http, series, folder, progress, work);
-    } catch (const Error& error) {
-        if (progress.arrived == 0) throw;
-        throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_far(progress, folder)));
-    }
-}
-
 void fetch_into(Http& http, const Address& address, const fs::path& output, const std::string& modality, const Work& work) {
     archive::check_names_study(address);
     if (!address.instance_uid.empty()) return archive::fetch_instance(http, address, output, work);
-    if (!address.series_uid.empty()) return fetch_one(http, address, output, work);
+    if (!address.series_uid.empty()) {
+        archive::fetch_into_folder(http, address, output, work);
+        return;
+    }
     for (const archive::Series& one : archive::find_series_of(http, address, modality, work))
-        fetch_one(http, {address.service, address.study_uid, one.uid, ""}, output / one.uid, work);
+        archive::fetch_into_folder(http, {address.service, address.study_uid, one.uid, ""}, output / one.uid, work);
 }
 
 std::vector<archive::SentFile> send(Http& http, const std::vector<fs::path>& files, const Work& work) {

@@ -16,6 +16,7 @@ namespace {
 // Few enough for a process that may open 1024 files, and to lose with a killed one.
 constexpr std::size_t kMostFiles = 64;
 constexpr std::uint64_t kMostBytes = std::uint64_t{256} << 20;
+constexpr std::chrono::milliseconds kLongestWait(500);  ///< of whoever watches them come
 
 }  // namespace
 
@@ -57,7 +58,8 @@ void BatchedFiles::end() {
     ::sync_file_range(open_.back().descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
     ended_.push_back(open_.back());
     open_.pop_back();
-    if (ended_.size() >= kMostFiles || bytes_ >= kMostBytes) flush();
+    const bool is_awaited = std::chrono::steady_clock::now() - flushed_ >= kLongestWait;
+    if (is_awaited || ended_.size() >= kMostFiles || bytes_ >= kMostBytes) flush();
 }
 
 void BatchedFiles::flush() {
@@ -71,6 +73,7 @@ void BatchedFiles::flush() {
         if (::close(file.descriptor) != 0) fail(file, errno);
     }
     bytes_ = 0;
+    flushed_ = std::chrono::steady_clock::now();
 }
 
 }  // namespace kontur::archive

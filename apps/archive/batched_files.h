@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -9,9 +10,10 @@
 
 namespace kontur::archive {
 
-/// Files of a folder, one after the other, that get their names only once they are on the disk, many at a time: a flush for
-/// each would take longer than the network. Until then a file is hidden ("." in front), which a killed process leaves behind
-/// and the next one overwrites. All members throw Error(io) naming the file and the system's reason.
+/// Files of a folder, one after the other, that get their names only once they are on the disk, the first one at once and
+/// then many at a time: a flush for each would take longer than the network. Until then a file is hidden ("." in front),
+/// which a killed process leaves behind and the next one overwrites. All members throw Error(io) naming the file and the
+/// system's reason.
 class BatchedFiles {
 public:
     explicit BatchedFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -39,6 +41,7 @@ private:
     std::vector<File> ended_;
     std::vector<File> open_;   ///< one, or none
     std::uint64_t bytes_ = 0;  ///< of `ended_`, and what is written of `open_`
+    std::chrono::steady_clock::time_point flushed_{};
 };
 
 }  // namespace kontur::archive

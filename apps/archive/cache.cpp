@@ -66,6 +66,11 @@ std::string only_series(const std::vector<Series>& all, const Address& study) {
 
 }  // namespace
 
+std::vector<fs::path> cache_places(const Address& series) {
+    const fs::path folder = study_folder(series) / series.series_uid;
+    return {part_folder(folder), folder};
+}
+
 fs::path fetch_to_cache(Http& http, const Address& series, const Work& work) {
     const fs::path folder = study_folder(series) / series.series_uid;
     FetchedSeries progress;

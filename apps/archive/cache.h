@@ -17,6 +17,9 @@ namespace kontur::archive {
 /// kept, the sentence says so.
 std::filesystem::path fetch_to_cache(Http& http, const Address& series, const Work& work);
 
+/// Where a series lies in the cache: while it comes, and whole.
+std::vector<std::filesystem::path> cache_places(const Address& series);
+
 /// Those series that hold what was drawn, into folders beside the images, where `kontur open` looks for them.
 void fetch_drawings_to_cache(Http& http, const std::vector<Series>& all, const Address& study, const Work& work);
 

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "kontur/base/error.h"
+#include "kontur/base/number_from_chars.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/dicom/uneven_slices_error.h"
 #include "kontur/io/images/frame_choice_error.h"
@@ -233,6 +235,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const StopToken& stop) {
     if (get && target.path == "/api/drawings") return drawings(request, stop);
     if (!get && below("/api/import/")) return import(request, stop);
     if (!get && target.path == "/api/image") return put_image(request, stop);
+    if (get && target.path == "/api/archive/arriving") return arriving(target);
     if (!get && target.path == "/api/archive/send") return send(request, stop);
     if (get && target.path == "/api/archive/waiting")
         return {200, "application/json", to_text({{"names", workspace_.waiting_for_archive(request.opening)}}), {}};
@@ -273,6 +276,17 @@ HttpReply HttpApi::send(const HttpRequest& request, const StopToken& stop) {
     const json document = parsed_request(request.body, "SendRequest");
     const ArchiveOutbox::Item item{document["name"].get<std::string>(), document.value("again", false)};
     return {200, "application/json", to_text(workspace_.send_to_archive(item, request.opening, stop)), {}};
+}
+
+HttpReply HttpApi::arriving(const Target& target) {
+    std::optional<double> at_mm;
+    if (const auto text = target.parameter("at_mm")) {
+        const auto [end, error] = number_from_chars(text->data(), text->data() + text->size(), at_mm.emplace());
+        if (error != std::errc() || end != text->data() + text->size() || !std::isfinite(*at_mm))
+            throw Error(ErrorKind::invalid_input, "'at_mm' is not a number");
+    }
+    std::string bytes = workspace_.arriving(at_mm);
+    return bytes.empty() ? nothing() : binary(std::move(bytes));
 }
 
 HttpReply HttpApi::compared(const HttpRequest& request, const StopToken& stop) {

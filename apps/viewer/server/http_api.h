@@ -59,6 +59,7 @@ private:
     HttpReply measured(const HttpRequest& request, const StopToken& stop);
     HttpReply put_image(const HttpRequest& request, const StopToken& stop);
     HttpReply send(const HttpRequest& request, const StopToken& stop);
+    HttpReply arriving(const Target& target);
     HttpReply compared(const HttpRequest& request, const StopToken& stop);
     HttpReply exported(const HttpRequest& request, const StopToken& stop);
     HttpReply drawings(const HttpRequest& request, const StopToken& stop);

@@ -173,7 +173,7 @@ void Workspace::begin(const std::string& title, Open open, std::function<void(st
         if (session_) throw Error(ErrorKind::invalid_input, "an image is open; close it first");
         if (opening_)
             throw Error(ErrorKind::invalid_input, fmt::format("{} is being opened; cancel that first", opening_->title));
-        opening_ = Opening{title, "", 0};
+        opening_ = Opening{.title = title, .stage = ""};
         sentence_.clear();
         reading_ = StopSource();
         stop = reading_.token();
@@ -313,8 +313,23 @@ void Workspace::open_archived(const std::string& study_uid, const std::string& s
         archive::Http http(series, archive().access);
         const std::vector<archive::Series> all = archive::find_series(http, series.study_uid, work.untold());
         archive::fetch_drawings_to_cache(http, all, series, work.untold());
+        show_arriving(archive::cache_places(series));
         return services_.open({archive::fetch_to_cache(http, series, work)}, work);
     });
+}
+
+void Workspace::show_arriving(std::vector<fs::path> folders) {
+    const std::scoped_lock lock(mutex_);
+    if (opening_) opening_->arriving = std::make_shared<ArrivingSlices>(std::move(folders));
+}
+
+std::string Workspace::arriving(std::optional<double> at_mm) {
+    std::shared_ptr<ArrivingSlices> slices;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (opening_) slices = opening_->arriving;
+    }
+    return slices ? slices->picture(at_mm) : "";
 }
 
 void Workspace::put_second_image(const OpenRequest& request, const std::optional<std::string>& opening,

@@ -19,6 +19,7 @@
 
 #include "kontur/base/stop.h"
 #include "kontur/base/work.h"
+#include "viewer/images/arriving_slices.h"
 #include "viewer/server/archive_outbox.h"
 #include "viewer/session/session.h"
 #include "viewer/store/arrangements.h"
@@ -91,6 +92,8 @@ public:
     /// For pages: as `begin`, of a series of the archive, with what was drawn in its study. Throws Error(unsupported)
     /// without an archive.
     void open_archived(const std::string& study_uid, const std::string& series_uid, const std::string& title);
+    /// For pages: of the series that is being fetched what has come (ArrivingSlices::picture). "" where there is nothing.
+    std::string arriving(std::optional<double> at_mm);
     /// For pages: reads what lies in one of the places, and shows it beside the open session's image. Returns when it is
     /// there; status lines say how far it is. Throws as `session` and `Session::put_second_image`, what the reader throws,
     /// and Error(invalid_input) while another one is read.
@@ -124,6 +127,7 @@ private:
         std::string title;
         std::string stage;
         double fraction = 0;
+        std::shared_ptr<ArrivingSlices> arriving{};  ///< from an archive
     };
 
     std::shared_ptr<Session> session_locked(const std::optional<std::string>& opening) const;
@@ -135,6 +139,7 @@ private:
     /// `to_choose`: further members of the error, where the file can be read once something is chosen.
     void fail(std::string_view kind, const std::string& sentence,
               const nlohmann::json& to_choose = nlohmann::json::object());
+    void show_arriving(std::vector<std::filesystem::path> folders);
     void tell_progress(std::string_view stage, double fraction);
     void tell(const std::string& message);
 

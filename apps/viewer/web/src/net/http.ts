@@ -6,6 +6,7 @@ import type {
   ArchivedRequest,
   ArchivedSeries,
   ArchivedStudies,
+  ArrivingHeader,
   Comparison,
   Folder,
   ImportReply,
@@ -124,6 +125,12 @@ export class Http {
   /** Begins to fetch and to read; events tell the rest. */
   async openArchived(request: ArchivedRequest): Promise<void> {
     await this.post("archive/open", JSON.stringify(request));
+  }
+
+  /** Of the series that is being fetched the slice nearest to a place, or the one that came last. */
+  async arriving(at: number | null, signal: AbortSignal): Promise<BinaryReply<ArrivingHeader>> {
+    const query = new URLSearchParams(at === null ? {} : { at_mm: String(at) });
+    return new BinaryReply(await (await this.request(`archive/arriving?${query}`, { signal })).arrayBuffer());
   }
 
   /** Sends an export to the archive that the image came from; `again`: what did not arrive last time. */

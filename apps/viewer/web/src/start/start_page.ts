@@ -5,6 +5,7 @@ import type { ConnectionState } from "../net/socket";
 import { button, buttonPiece, el } from "../dom/dom";
 import { piece, render, type Piece } from "../dom/pieces";
 import { ArchiveView } from "./archive_view";
+import { ArrivingView } from "./arriving_view";
 import { FolderView } from "./folder_view";
 import { Problem } from "./problem";
 
@@ -21,6 +22,7 @@ export class StartPage {
   private readonly opening = el("section", { class: "opening", "aria-label": "Opening", "data-test": "opening", hidden: true });
   private readonly openingTitle = el("h2", {});
   private readonly openingStage = el("p", { "aria-live": "polite" });
+  private readonly arriving: ArrivingView;
   private readonly openingBar = el("progress", { max: 1, "aria-label": "Read so far" });
   private example = "";
   private asked: OpenRequest | null = null;
@@ -33,6 +35,7 @@ export class StartPage {
       open: (request) => void this.attempt(() => this.http.openArchived(request)),
       problem: (sentence) => this.problem.set(sentence),
     });
+    this.arriving = new ArrivingView(http);
     const cancel = button({
       label: "Cancel",
       title: "Do not open it",
@@ -47,7 +50,7 @@ export class StartPage {
       test: "example",
       click: () => void this.open({ path: this.example }),
     });
-    this.opening.append(this.openingTitle, this.openingStage, this.openingBar, cancel);
+    this.opening.append(this.openingTitle, this.arriving.element, this.openingStage, this.openingBar, cancel);
     this.element.append(
       el("header", { class: "start-head" }, el("h1", {}, "kontur"), this.version, el("span", { class: "spring" }), example),
       this.problem.element,
@@ -79,17 +82,19 @@ export class StartPage {
   hide(): void {
     this.folders.stop();
     this.archive.stop();
+    this.arriving.stop();
     this.element.close();
   }
 
   setOpening(state: OpeningState | null): void {
     this.opening.hidden = state === null;
-    if (!state) return;
+    if (!state) return this.arriving.stop();
     this.problem.set("");
     this.openingTitle.textContent = `Opening ${state.title}`;
     this.openingStage.textContent = stageText(state);
     if (state.fraction > 0) this.openingBar.value = state.fraction;
     else this.openingBar.removeAttribute("value");
+    if (state.stage === "fetch") void this.arriving.update();
   }
 
   failed({ kind, message, frames, transforms, uneven, moved }: Failed["error"]): void {

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the wheel and the sdist (PEP 517) with nothing but CMake and the standard library; the sdist needs git.
+"""Builds the wheel and the sdist (PEP 517) with a C++20 compiler, CMake and what `requires` names; the sdist needs git.
 
-The module links against the libraries of this machine's Debian, so the wheel is for machines like it. With
+The module links against the libraries of this machine, so the wheel is for machines like it, and lacks what needs a library that is
+missing (wheel_parts.cmake). With
 --config-settings=static=FOLDER, which has static libraries of DCMTK, it stands alone, and has other libraries in it (needs patchelf):
 packaging/build_wheel makes both. With
 --config-settings=build-dir=FOLDER a build that is there is packed instead of a new one; relative folders count from the
@@ -23,26 +24,32 @@ import zipfile
 
 HERE = pathlib.Path(__file__).parent
 ROOT = HERE.parent
-SOURCES = ["CMakeLists.txt", "LICENSE", "README.md", "apps", "packaging", "python", "src"]
+SOURCES = ["CMakeLists.txt", "LICENSE", "README.md", "apps/archive", "packaging", "python", "src"]
+# Libraries of headers, of which an sdist has copies: Debian's package, the folder and which of it.
+HEADERS = [("libfmt-dev", "fmt", "*.h"), ("nlohmann-json3-dev", "nlohmann", "**/*.hpp"), ("libcurl4-openssl-dev", "curl", "*.h")]
 OF_GLIBC = re.compile(r"(libc|libm|libpthread|libdl|librt|ld-linux[-a-z0-9_]*)\.so")
 # Debian's, of which a wheel that stands alone has the code.
-STATIC_PACKAGES = ["libdcmtk-dev", "libopenjp2-7-dev", "libpng-dev", "zlib1g-dev", "libbz2-dev", "libfmt-dev", "libstdc++-12-dev"]
+STATIC_PACKAGES = ["libdcmtk-dev", "libopenjp2-7-dev", "libpng-dev", "zlib1g-dev", "libbz2-dev", "libfmt-dev", "libstdc++-{}-dev"]
 PYTHON = f"cp{sys.version_info.major}{sys.version_info.minor}"
 
 
-def _cmake(*words):
-    """Without pip's build isolation, which hides the packages of Debian's Python, NumPy among them."""
-    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "PYTHONNOUSERSITE")}
-    subprocess.run(["cmake", *words], check=True, env=environment)
+def _pybind11():
+    """CMake finds Debian's package by itself, and Python's only by its name."""
+    try:
+        import pybind11
+    except ImportError:
+        return []
+    return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
 
 
 def _built_package(build, static):
     """The folder with the importable package, built if need be."""
     if not (build / "CMakeCache.txt").exists():
-        left_out = [f"-DKONTUR_{name}=OFF" for name in ("BUILD_TESTS", "BUILD_BENCH", "BUILD_PAGE", "SHARED")]
-        alone = [f"-DKONTUR_STATIC={ROOT / static}"] if static else []
-        _cmake("-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", *left_out, *alone)
-    _cmake("--build", build, "--target", "kontur_python_stubs", "--parallel", str(os.cpu_count()))
+        kind = f"-DKONTUR_STATIC={ROOT / static}" if static else "-DKONTUR_WHEEL=ON"
+        words = ["-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", kind, *_pybind11()]
+        words += ["-G", "Ninja"] if shutil.which("ninja") else []
+        subprocess.run(["cmake", "-S", ROOT, "-B", build, *words], check=True)
+    subprocess.run(["cmake", "--build", build, "--target", "kontur_python_stubs", "--parallel", str(os.cpu_count())], check=True)
     return build / "python" / "kontur"
 
 
@@ -97,8 +104,15 @@ def _licences(static):
     paths = [ROOT / "LICENSE", ROOT / "packaging/copyright"]
     files = {path.name: path.read_bytes() for path in paths}
     for package in STATIC_PACKAGES if static else []:
-        files[f"copyright-{package}"] = pathlib.Path("/usr/share/doc", package, "copyright").read_bytes()
+        name = package.format(_output("c++", "-dumpversion").strip())
+        files[f"copyright-{name}"] = _copyright(name).read_bytes()
+    for path in [] if static else (ROOT / "third_party").glob("*/copyright"):
+        files[f"copyright-{path.parent.name}"] = path.read_bytes()
     return files
+
+
+def _copyright(package):
+    return pathlib.Path("/usr/share/doc", package, "copyright")
 
 
 def _pack(package, version, wheel, licences, bundled):
@@ -124,6 +138,11 @@ def _pack(package, version, wheel, licences, bundled):
     return name
 
 
+def get_requires_for_build_wheel(config_settings=None):
+    needed = [] if shutil.which("cmake") else ["cmake>=3.24"]
+    return needed if shutil.which("ninja") or shutil.which("make") else [*needed, "ninja"]
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Called by pip; returns the wheel's file name."""
     given = config_settings or {}
@@ -135,6 +154,19 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         return _pack(package, _version(), pathlib.Path(wheel_directory), _licences(static), bundled)
 
 
+def _header_files():
+    """Those of HEADERS by their names in the sdist, with their licences."""
+    files = {}
+    for package, library, pattern in HEADERS:
+        places = [folder for folder in pathlib.Path("/usr/include").glob(f"*/{library}")] + [pathlib.Path("/usr/include", library)]
+        folder = next((place for place in places if place.is_dir()), None)
+        if folder is None:
+            sys.exit(f"an sdist has the headers of {package}, which is not installed")
+        files |= {f"third_party/{library}/{path.relative_to(folder)}": path for path in folder.glob(pattern)}
+        files[f"third_party/{library}/copyright"] = _copyright(package)
+    return files
+
+
 def build_sdist(sdist_directory, config_settings=None):
     """What a wheel is built from, of the files that git knows; returns the file name."""
     version = _version()
@@ -144,6 +176,8 @@ def build_sdist(sdist_directory, config_settings=None):
     with tarfile.open(pathlib.Path(sdist_directory) / f"{top}.tar.gz", "w:gz") as archive:
         for path in sorted(filter(None, listed.split("\0"))):
             archive.add(ROOT / path, f"{top}/{path}", recursive=False)
+        for path, header in sorted(_header_files().items()):
+            archive.add(header.resolve(), f"{top}/{path}", recursive=False)
         for name, text in (("pyproject.toml", project), ("PKG-INFO", _metadata(version))):
             entry = tarfile.TarInfo(f"{top}/{name}")
             entry.size = len(text.encode())

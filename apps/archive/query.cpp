@@ -13,7 +13,7 @@
 #include "archive/dicom_json.h"
 #include "archive/refusal.h"
 #include "kontur/base/error.h"
-#include "kontur/io/dicom/dicom_identity.h"
+#include "kontur/io/dicom/dicom_date.h"
 
 namespace kontur::archive {
 namespace {

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # fmt and nlohmann-json by their headers alone, for builds that link nothing else. By paths, and not by their packages, which are
 # for one architecture: a cross compiler takes them from a folder that has nothing else (FMT_INCLUDE_DIR, JSON_INCLUDE_DIR).
-find_path(FMT_INCLUDE_DIR fmt/format-inl.h REQUIRED)
-find_path(JSON_INCLUDE_DIR nlohmann/json.hpp REQUIRED)
+# An sdist brings them in third_party.
+find_path(FMT_INCLUDE_DIR fmt/format-inl.h HINTS ${PROJECT_SOURCE_DIR}/third_party REQUIRED)
+find_path(JSON_INCLUDE_DIR nlohmann/json.hpp HINTS ${PROJECT_SOURCE_DIR}/third_party REQUIRED)
 set(header_libraries kontur_json kontur_fmt)
 add_library(kontur_json INTERFACE)
 target_include_directories(kontur_json SYSTEM INTERFACE ${JSON_INCLUDE_DIR})

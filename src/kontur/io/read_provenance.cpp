@@ -16,7 +16,7 @@
 #include "kontur/io/bytes/json_file.h"
 #include "kontur/io/bytes/text_header.h"
 #include "kontur/io/bytes/xml_tags.h"
-#include "kontur/io/dicom/dcmtk.h"
+#include "kontur/io/dicom/dicom_object.h"
 #include "kontur/io/dicom/dicom_series.h"
 #include "kontur/io/images/mgh.h"
 #include "kontur/io/images/nifti_extensions.h"
@@ -162,13 +162,9 @@ std::vector<std::string> parts_of_description(std::string_view text) {
 
 /// kontur's contribution. What names nothing belongs to the value before it: earlier files do not double their ';'.
 Provenance from_dicom(const fs::path& path) {
-    dcmtk::set_up();
-    DcmFileFormat file;
-    dcmtk::load(file, path, DCM_PixelData);
     Provenance found;
-    for (DcmItem* equipment : dcmtk::items(*file.getDataset(), DCM_ContributingEquipmentSequence)) {
-        if (dcmtk::text(*equipment, DCM_Manufacturer) != "kontur") continue;
-        for (const std::string& part : parts_of_description(dcmtk::text(*equipment, DCM_ContributionDescription))) {
+    for (const std::string& description : kontur_contributions(path)) {
+        for (const std::string& part : parts_of_description(description)) {
             if (auto entry = entry_of(part)) found.push_back(std::move(*entry));
             else if (!found.empty()) found.back().second += "; " + part;
         }

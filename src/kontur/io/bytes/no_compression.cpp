@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the core has in place of zlib and bzip2.
+// What stands for zlib and bzip2.
 #include "kontur/base/error.h"
 #include "kontur/io/bytes/decompress.h"
 #include "kontur/io/bytes/deflate.h"
@@ -8,10 +8,9 @@ namespace kontur {
 namespace {
 
 [[noreturn]] void refuse() {
-    throw Error(
-        ErrorKind::unsupported,
-        "compressed files are not for this kontur, which was built with KONTUR_CORE; take a file without compression "
-        "(.nii, not .nii.gz)");
+    throw Error(ErrorKind::unsupported,
+                "compressed files are not for this kontur, which was built without zlib, bzip2 and libpng; take a file "
+                "without compression (.nii, not .nii.gz)");
 }
 
 }  // namespace

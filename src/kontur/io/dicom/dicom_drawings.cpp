@@ -6,7 +6,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/dicom/dcmtk.h"
-#include "kontur/io/dicom/dicom_header.h"
+#include "kontur/io/dicom/dicom_start.h"
 
 namespace kontur {
 namespace {

@@ -254,12 +254,6 @@ DamagedImage damaged_image(const std::filesystem::path& path, const Error& error
 
 }  // namespace
 
-bool has_dicom_prefix(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return false;  // opening a pipe would wait for its writer
-    return dicom_start(path).has_value();
-}
-
 std::string name_of(const DicomHeader& slice) {
     const std::string name = slice.path.filename().string();
     return slice.frame ? name + ", frame " + std::to_string(*slice.frame) : name;

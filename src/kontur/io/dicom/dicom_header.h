@@ -83,10 +83,6 @@ struct DamagedImage {
     Error error;
 };
 
-/// True when the file starts as a DICOM file does, with a preamble or without one (`dicom_start`). Throws Error(io) when it
-/// cannot be read.
-bool has_dicom_prefix(const std::filesystem::path& path);
-
 /// "slice.dcm", or "enhanced.dcm, frame 7".
 std::string name_of(const DicomHeader& slice);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dicom/dicom_identity.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "kontur/io/dicom/dcmtk.h"
+#include "kontur/io/dicom/dicom_date.h"
 #include "kontur/io/dicom/dicom_suv.h"
 
 namespace kontur {
@@ -42,12 +41,6 @@ std::string unit_of(DcmItem& item, const std::string& modality) {
 }
 
 }  // namespace
-
-std::string readable_date(const std::string& stored) {
-    const bool is_date = stored.size() == 8 &&
-                         std::all_of(stored.begin(), stored.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-    return is_date ? stored.substr(0, 4) + "-" + stored.substr(4, 2) + "-" + stored.substr(6) : stored;
-}
 
 DicomIdentity dicom_identity(const std::filesystem::path& file) {
     dcmtk::set_up();

@@ -23,7 +23,4 @@ struct DicomIdentity {
 /// Reads the elements before the pixels. Throws as `read_dicom_headers`: Error(io) and Error(corrupt_file).
 DicomIdentity dicom_identity(const std::filesystem::path& file);
 
-/// YYYY-MM-DD of DICOM's YYYYMMDD; what is no date as it stands.
-std::string readable_date(const std::string& stored);
-
 }  // namespace kontur

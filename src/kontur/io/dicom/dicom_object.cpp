@@ -3,7 +3,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/dicom/dcmtk.h"
-#include "kontur/io/dicom/dicom_header.h"
+#include "kontur/io/dicom/dicom_start.h"
 
 namespace kontur {
 
@@ -18,6 +18,17 @@ DicomObject dicom_object(const std::filesystem::path& file) {
     if (object.study_uid.empty() || object.series_uid.empty() || object.instance_uid.empty())
         throw Error(ErrorKind::corrupt_file, file.string() + " does not name its study, series and instance");
     return object;
+}
+
+std::vector<std::string> kontur_contributions(const std::filesystem::path& file) {
+    dcmtk::set_up();
+    DcmFileFormat dicom;
+    dcmtk::load(dicom, file, DCM_PixelData);
+    std::vector<std::string> descriptions;
+    for (DcmItem* equipment : dcmtk::items(*dicom.getDataset(), DCM_ContributingEquipmentSequence))
+        if (dcmtk::text(*equipment, DCM_Manufacturer) == "kontur")
+            descriptions.push_back(dcmtk::text(*equipment, DCM_ContributionDescription));
+    return descriptions;
 }
 
 }  // namespace kontur

@@ -17,6 +17,7 @@
 #include "kontur/io/dicom/dicom_frames.h"
 #include "kontur/io/dicom/dicom_seg_pixels.h"
 #include "kontur/io/dicom/dicom_stack.h"
+#include "kontur/io/dicom/dicom_start.h"
 
 namespace kontur {
 namespace {

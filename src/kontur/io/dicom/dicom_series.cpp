@@ -20,6 +20,7 @@
 #include "kontur/io/dicom/dicom_header.h"
 #include "kontur/io/dicom/dicom_pixels.h"
 #include "kontur/io/dicom/dicom_stack.h"
+#include "kontur/io/dicom/dicom_start.h"
 #include "kontur/io/dicom/uneven_slices_error.h"
 
 namespace kontur {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <system_error>
 
 #include "kontur/io/bytes/input_file.h"
 
@@ -72,6 +73,12 @@ std::optional<DicomStart> dicom_start(const std::filesystem::path& path) {
     for (const bool explicit_vr : {true, false})
         if (starts_with_elements(head, explicit_vr)) return DicomStart{false, number(head, 0, 2) == kMetaGroup, explicit_vr};
     return std::nullopt;
+}
+
+bool has_dicom_prefix(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;  // opening a pipe would wait for its writer
+    return dicom_start(path).has_value();
 }
 
 }  // namespace kontur

@@ -20,4 +20,7 @@ struct DicomStart {
 /// cannot be read or is no regular file.
 std::optional<DicomStart> dicom_start(const std::filesystem::path& path);
 
+/// Whether a file begins so; false for what is no regular file. Throws Error(io) for one that cannot be read.
+bool has_dicom_prefix(const std::filesystem::path& path);
+
 }  // namespace kontur

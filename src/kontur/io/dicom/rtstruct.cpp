@@ -17,7 +17,7 @@
 #include "kontur/io/dicom/dcmtk.h"
 #include "kontur/io/dicom/decimal_string.h"
 #include "kontur/io/dicom/dicom_document.h"
-#include "kontur/io/dicom/dicom_header.h"
+#include "kontur/io/dicom/dicom_start.h"
 #include "kontur/io/dicom/roi_attributes.h"
 #include "kontur/io/dicom/roi_contours.h"
 #include "kontur/io/dicom/rtstruct_approval.h"

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+# A wheel has what this machine has: each library that is missing costs what needs it. A build is told so here, and whoever
+# uses the wheel by an UnsupportedError.
+find_package(PkgConfig QUIET)
+find_package(ZLIB QUIET)
+find_package(BZip2 QUIET)
+find_package(PNG QUIET)
+find_package(DCMTK QUIET)
+find_package(OpenSSL QUIET COMPONENTS Crypto)
+find_path(OPENBLAS_INCLUDE_DIR openblas_config.h PATH_SUFFIXES openblas-pthread openblas)
+find_library(OPENBLAS_LIBRARY openblas PATH_SUFFIXES openblas-pthread)
+if(PKG_CONFIG_FOUND)
+  pkg_check_modules(CAIRO QUIET IMPORTED_TARGET cairo)
+  pkg_check_modules(OPENJPEG QUIET IMPORTED_TARGET libopenjp2)
+endif()
+
+# Leaves a part out where one of the variables behind `missing` is not true.
+macro(kontur_wheel_part option missing)
+  foreach(needed ${ARGN})
+    if(KONTUR_${option} AND NOT ${needed})
+      set(KONTUR_${option} OFF)
+      message(STATUS "The wheel ${missing}")
+    endif()
+  endforeach()
+endmacro()
+kontur_wheel_part(COMPRESSION "has no compressed files and no PNG: zlib, bzip2 and libpng are not all here" ZLIB_FOUND BZIP2_FOUND PNG_FOUND)
+kontur_wheel_part(DICOM "has no DICOM: DCMTK, OpenJPEG and zlib are not all here" DCMTK_FOUND OPENJPEG_FOUND ZLIB_FOUND)
+kontur_wheel_part(PICTURES "draws no pictures: Cairo and libpng are not both here" CAIRO_FOUND PNG_FOUND)
+kontur_wheel_part(OPENBLAS "has no reference solvers: OpenBLAS is not here" OPENBLAS_INCLUDE_DIR OPENBLAS_LIBRARY)
+kontur_wheel_part(OPENSSL "takes its own SHA-256: OpenSSL is not here" OPENSSL_FOUND)

@@ -35,6 +35,10 @@ void BatchedFiles::fail(const File& file, int reason) const {
                 fmt::format("cannot write {}: {}", (folder_ / file.name).string(), std::generic_category().message(reason)));
 }
 
+bool BatchedFiles::is_awaited() const {
+    return !ended_.empty() && std::chrono::steady_clock::now() - flushed_ >= kLongestWait;
+}
+
 void BatchedFiles::begin(const std::string& name) {
     File file{name, -1};
     file.descriptor = ::open(hidden(file).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -43,6 +47,7 @@ void BatchedFiles::begin(const std::string& name) {
 }
 
 void BatchedFiles::write(std::string_view bytes) {
+    if (is_awaited()) flush();
     const File& file = open_.back();
     bytes_ += bytes.size();
     while (!bytes.empty()) {
@@ -58,8 +63,7 @@ void BatchedFiles::end() {
     ::sync_file_range(open_.back().descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
     ended_.push_back(open_.back());
     open_.pop_back();
-    const bool is_awaited = std::chrono::steady_clock::now() - flushed_ >= kLongestWait;
-    if (is_awaited || ended_.size() >= kMostFiles || bytes_ >= kMostBytes) flush();
+    if (is_awaited() || ended_.size() >= kMostFiles || bytes_ >= kMostBytes) flush();
 }
 
 void BatchedFiles::flush() {

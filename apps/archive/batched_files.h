@@ -36,11 +36,12 @@ private:
     std::filesystem::path hidden(const File& file) const { return folder_ / ("." + file.name); }
     [[noreturn]] void fail(const File& file, int reason) const;
     void give_up(const File& file) const;
+    bool is_awaited() const;
 
     std::filesystem::path folder_;
     std::vector<File> ended_;
     std::vector<File> open_;   ///< one, or none
-    std::uint64_t bytes_ = 0;  ///< of `ended_`, and what is written of `open_`
+    std::uint64_t bytes_ = 0;  ///< written since the last flush
     std::chrono::steady_clock::time_point flushed_{};
 };
 

@@ -74,6 +74,11 @@ class Server:
         """(JSON, arrays) of a binary reply."""
         status, _, data = self.request(method, target, body)
         assert status == 200, data
+        return self.parts(data)
+
+    @staticmethod
+    def parts(data):
+        """(JSON, arrays) of the bytes of a binary reply."""
         size = struct.unpack_from("<I", data)[0]
         head = json.loads(data[4 : 4 + size])
         types = {"u8": "u1", "u16": "<u2", "u32": "<u4", "f32": "<f4"}

@@ -61,7 +61,7 @@ with tempfile.TemporaryDirectory() as folder:
         preamble = pathlib.Path(folder, "slice.dcm")
         preamble.write_bytes(bytes(128) + b"DICM")
         refuse("DICOM", lambda: kontur.read_image(preamble))
-        refuse("DICOM", lambda: kontur.read_image(folder))
+        refuse("DICOM", lambda: kontur.read_rtstruct(preamble))
 
 for series in sorted(path for path in HERE.iterdir() if (path / "truth.raw").exists()):
     truth = np.fromfile(series / "truth.raw")

@@ -28,6 +28,7 @@ bool is_dicom_seg(const fs::path&) { return false; }
 bool is_rtstruct(const fs::path&) { return false; }
 
 DicomFolder dicom_folder(const fs::path&) { refuse(); }
+DicomObject dicom_object(const fs::path&) { refuse(); }
 std::vector<std::string> kontur_contributions(const fs::path&) { refuse(); }
 
 std::shared_ptr<const DicomContent> read_dicom_headers_of(const fs::path&, const Work&) { refuse(); }

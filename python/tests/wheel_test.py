@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The package as a wheel and an sdist, made by the documentation's lines word by word, with pip's build isolation and no network.
+"""The package as a wheel and an sdist, made by the documentation's lines word by word, without network.
 
 Only the compiler's work is replaced: where a line builds anew, the module of this build is laid where CMake would put it."""
 import os
@@ -9,6 +9,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tarfile
 
 import pytest
 
@@ -77,5 +78,22 @@ def test_a_wheel_is_made_and_installed(run, line, tmp_path):
 
 
 def test_an_sdist_is_made_and_gives_a_wheel(run, tmp_path):
-    run(SDIST)
+    [sdist] = run(SDIST).glob("*.tar.gz")
+    with tarfile.open(sdist) as archive:
+        names = {name.split("/", 1)[1] for name in archive.getnames()}
+        project = archive.extractfile(sdist.name.removesuffix(".tar.gz") + "/pyproject.toml").read().decode()
+    assert {"CMakeLists.txt", "src/kontur/kontur.h", "python/wheel_backend.py", "packaging/copyright", "apps/archive/http.cpp"} <= names
+    assert {f"third_party/{name}" for name in ("fmt/format-inl.h", "fmt/copyright", "nlohmann/json.hpp", "curl/curl.h", "curl/copyright")} <= names
+    assert 'requires = ["numpy", "pybind11' in project and 'backend-path = ["python"]' in project
     expect_wheel(run(FROM_SDIST), tmp_path / "site")
+
+
+def test_what_is_missing_is_said_and_left_out(tmp_path):
+    missing = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("PkgConfig", "DCMTK", "ZLIB", "BZip2", "PNG", "OpenSSL")]
+    command = ["cmake", "-S", ROOT, "-B", tmp_path, "-G", "Ninja", "-DKONTUR_WHEEL=ON", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DOPENBLAS_LIBRARY=NOTFOUND"]
+    said = subprocess.run([*command, *missing], check=True, capture_output=True, text=True).stdout
+    for words in ("has no compressed files and no PNG", "has no DICOM", "draws no pictures", "takes its own SHA-256"):
+        assert f"-- The wheel {words}: " in said, said
+    sources = set(re.findall(r"/(\w+)\.cpp\"", (tmp_path / "compile_commands.json").read_text()))
+    assert {"without_dcmtk", "no_compression", "no_png", "picture_without_cairo", "sha256_without_openssl"} <= sources
+    assert not {"dicom_series", "deflate", "png", "canvas"} & sources and "contour_json" in sources

@@ -16,7 +16,8 @@ namespace {
 // Few enough for a process that may open 1024 files, and to lose with a killed one.
 constexpr std::size_t kMostFiles = 64;
 constexpr std::uint64_t kMostBytes = std::uint64_t{256} << 20;
-constexpr std::chrono::milliseconds kLongestWait(500);  ///< of whoever watches them come
+/// Of who watches them come. With half and with twice of it a series takes as long.
+constexpr std::chrono::milliseconds kLongestWait(500);
 
 }  // namespace
 

@@ -16,6 +16,8 @@
 namespace kontur {
 namespace {
 
+const DcmTagKey kObservationDescription(0x3006, 0x0088);  // which DCMTK 3.6.9 names otherwise than 3.6.7
+
 using dcmtk::append_item;
 using dcmtk::put;
 using dcmtk::text;
@@ -68,7 +70,7 @@ void read_observation(DcmItem& observation, StructureAttributes& attributes, std
     if (const std::string type = text(observation, DCM_RTROIInterpretedType); !type.empty())
         attributes.interpreted_type = type;
     if (const auto code = dcmtk::read_code(observation, DCM_RTROIIdentificationCodeSequence)) attributes.code = code;
-    attributes.review.comment = dcmtk::lines(observation, DCM_ROIObservationDescription);
+    attributes.review.comment = dcmtk::lines(observation, kObservationDescription);
     read_properties(observation, attributes, notes);
 }
 
@@ -104,7 +106,7 @@ void put_observation(DcmItem& observation, const StructureAttributes& attributes
     if (attributes.code) dcmtk::put_code(observation, DCM_RTROIIdentificationCodeSequence, *attributes.code);
     put(observation, DCM_RTROIInterpretedType, attributes.interpreted_type);
     put(observation, DCM_ROIInterpreter, "");
-    if (!attributes.review.comment.empty()) put(observation, DCM_ROIObservationDescription, attributes.review.comment);
+    if (!attributes.review.comment.empty()) put(observation, kObservationDescription, attributes.review.comment);
     for (const PhysicalProperty& one : attributes.physical_properties) {
         DcmItem& item = append_item(observation, DCM_ROIPhysicalPropertiesSequence);
         put(item, DCM_ROIPhysicalProperty, one.property);

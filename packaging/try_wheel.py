@@ -69,6 +69,11 @@ for series in sorted(path for path in HERE.iterdir() if (path / "truth.raw").exi
     assert np.array_equal(samples.ravel(), truth), series.name
     print(f"DICOM {series.name}: {samples.shape} read")
 
+if (HERE / "cyrillic").exists():
+    [series] = kontur.list_dicom_series(HERE / "cyrillic")
+    assert series.description == "Печень", series.description
+    print(f"DICOM in Cyrillic: {series.description}")
+
 refuse("a dense solver", lambda: kontur.segment(case.contours, case.grid, solver="dense"))
 refuse("a picture", lambda: kontur.make_picture(made.mesh, case.contours))
 try:  # libcurl is the system's, where it has one

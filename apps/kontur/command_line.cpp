@@ -268,6 +268,13 @@ void refuse_beside(CLI::App& sub, CLI::Option& one, const std::vector<std::strin
             option->excludes(&one);
 }
 
+void add_cycle(CLI::App& sub, std::optional<double>& cycle) {
+    sub.add_option("--cycle", cycle,
+                   "Contours of several moments: the motion repeats after so many frames, or seconds [as the contours say]")
+        ->type_name("T")
+        ->check(CLI::PositiveNumber);
+}
+
 void add_segment(CLI::App& app, Invocation& invocation) {
     Binder<SegmentCommand> bind(app, invocation, "segment", "Contours in; mask, surface, picture and report out",
                                 "kontur segment contours.json --image ct.nii.gz --output liver.nii.gz --mesh liver.stl \\\n"
@@ -291,9 +298,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
                 "Half width in mm of the 90 % band to write, for 3 planes and more: .ply, or an image at the mask's border");
     bind.option("--report", c.report, "FILE", "Report to write: .json");
     bind.option("--volumes", c.volumes, "FILE", "Volume in each frame of a 4D --image to write: .csv (docs/moving.md)");
-    bind.option("--cycle", c.cycle, "T",
-                "Contours of several moments: the motion repeats after so many frames, or seconds [as the contours say]")
-        ->check(CLI::PositiveNumber);
+    add_cycle(*bind.sub, c.cycle);
     bind.option("--roi", c.rois, "NAME",
                 "Which structure of an RTSTRUCT, by name or number; again for more, which become the labels 1, 2, ...")
         ->allow_extra_args(false);
@@ -572,6 +577,7 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
         ->check(between(0, kMostPlanes));
     bind.option("--empty-planes", c.empty_planes, "FILE",
                 "Planes that show nothing of the object, as --output writes them; besides those of CONTOURS: .json");
+    add_cycle(*bind.sub, c.cycle);
     add_choice<PlaneChoice>(*bind.sub, "--among", c.among,
                             {{"any", PlaneChoice::any}, {"image-slices", PlaneChoice::image_slices}},
                             "Planes of any direction, or only slices across the axes of the image");

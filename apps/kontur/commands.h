@@ -179,6 +179,7 @@ struct SuggestCommand {
     PlaneChoice among = PlaneChoice::any;
     std::filesystem::path mask;            ///< of others, of which planes are to be looked at; empty: contours are fitted
     std::optional<std::int64_t> label;     ///< of it
+    std::optional<double> cycle;           ///< of contours of several moments: how soon the motion repeats
     std::filesystem::path output, sketch;  ///< planes; predicted outlines in them; empty: not asked for
     bool json = false;
     SegmentOptions options;

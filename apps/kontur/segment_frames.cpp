@@ -19,6 +19,7 @@
 #include "kontur/io/meshes/mesh.h"
 #include "kontur/segment_moving.h"
 #include "kontur/segment_report.h"
+#include "moving_input.h"
 #include "outputs.h"
 
 namespace kontur::app {
@@ -27,30 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& problem) { throw Error(ErrorKind::invalid_input, problem); }
-
-/// --cycle, else the file's, else the image's, which is noted.
-void choose_cycle(const SegmentCommand& command, ContourSet& contours, const ImageFrames& frames,
-                  std::vector<std::string>& notes) {
-    const bool in_seconds = contours.contours.front().time_s.has_value();
-    std::optional<double>& cycle = in_seconds ? contours.cycle_s : contours.cycle_frames;
-    if (command.cycle) cycle = command.cycle;
-    if (cycle || !frames.cycle_frames()) return;
-    cycle = in_seconds ? frames.cycle_s : frames.cycle_frames();
-    notes.push_back(fmt::format("the motion repeats after {:.4g} {}, as {} says; --cycle says otherwise", *cycle,
-                                in_seconds ? "s" : "frames", command.image.path.string()));
-}
-
-/// The image's frames in the contours' unit.
-std::vector<double> times_of(const SegmentCommand& command, const ContourSet& contours, const ImageFrames& frames) {
-    const bool in_seconds = contours.contours.front().time_s.has_value();
-    if (in_seconds && frames.count > 1 && !frames.step_s)
-        refuse(fmt::format("contours have a time_s, and {} does not say how far apart its frames are; give contours a frame",
-                           command.image.path.string()));
-    std::vector<double> times;
-    for (std::int64_t n = 0; n < frames.count; ++n)
-        times.push_back(in_seconds ? static_cast<double>(n) * frames.step_s.value_or(0) : static_cast<double>(n + 1));
-    return times;
-}
 
 /// "liver_frame_07.stl" of 12 for "liver.stl".
 fs::path frame_path(const fs::path& path, std::size_t frame, std::size_t count) {
@@ -128,12 +105,7 @@ bool is_moving(const SegmentCommand& command, const ContourSet& contours) {
 }
 
 void check_moving_words(const SegmentCommand& command) {
-    if (command.image.path.empty())
-        refuse("contours were drawn at several moments; give a 4D --image, whose frames get masks");
-    if (const auto& frame = command.image.options.frame)
-        refuse(fmt::format("--frame {} chooses one frame, and contours were drawn in several; leave it out", *frame));
-    if (const auto& volume = command.image.options.dicom.volume)
-        refuse(fmt::format("--volume {} chooses one volume, and contours were drawn in several; leave it out", *volume));
+    check_moving_image(command.image);
     for (const auto& [option, path] :
          {std::pair("--rtstruct", &command.rtstruct), std::pair("--uncertainty", &command.uncertainty)})
         if (!path->empty())
@@ -149,17 +121,12 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     ContourSet& contours = read.contours;
     std::vector<std::string> notes = std::move(read.notes);
     if (!command.name.empty()) contours.name = command.name;
-    ImageInput heard = command.image;
-    heard.options.on_note = [&](std::string_view note) { notes.emplace_back(note); };
-    const ImageFrames frames = read_image_frames(heard.path, heard.options, work);
+    const MovingInput input = read_moving_input({command.image, command.cycle, read.frame_of_reference_uid}, contours, work);
+    notes.insert(notes.end(), input.notes.begin(), input.notes.end());
+    const ImageFrames& frames = input.frames;
+    const Grid& grid = input.grid;
     ImageInput known = command.image;
     known.options.dicom.content = frames.headers;
-    if (!frames.order.empty()) notes.push_back(fmt::format("{}: {}", command.image.path.string(), frames.order));
-    const ImageInput first = source_of_frame(command.image, frames, 1);
-    for (std::string& note : frame_of_reference_notes(read.frame_of_reference_uid, first)) notes.push_back(std::move(note));
-    heard = source_of_frame(heard, frames, 1);
-    const Grid grid = read_grid(heard.path, heard.options, work);
-    choose_cycle(command, contours, frames, notes);
     std::vector<fs::path> inputs = command.contours;
     inputs.push_back(command.image.path);
     const std::vector<fs::path> meshes = mesh_paths(command, frames);
@@ -168,14 +135,8 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     options.drawn_on = grid;
     options.mesh = !command.mesh.empty() || !command.picture.empty();
     reading.lap("read");
-    const std::vector<double> times = times_of(command, contours, frames);
-    const auto image_at = [&](double time) -> std::shared_ptr<const Image> {
-        const auto found = std::find(times.begin(), times.end(), time);
-        if (found == times.end()) return nullptr;
-        const ImageInput one = source_of_frame(command.image, frames, found - times.begin() + 1);
-        return std::make_shared<const Image>(read_image(one.path, one.options, work));
-    };
-    MovingSegmentation result = kontur::segment_moving(contours, {grid, image_at}, times, options, work);
+    MovingSegmentation result =
+        kontur::segment_moving(contours, input.to_segment(command.image, work), input.times, options, work);
     result.seconds.insert(result.seconds.begin(), seconds.begin(), seconds.end());
     put_notes_first(notes, result.warnings);
 

@@ -114,8 +114,10 @@ Facts facts_of(const ImageSlice& slice) { return {{"axis", std::string(1, "ijk"[
 void run(const SuggestCommand& command, Console& console) {
     check(command);
     if (!command.mask.empty()) return run_for_mask(command, console);
-    const Work work = console.work(command.threads);
     ReadContours read = read_contours_to_fit(command.contours, command.read);
+    if (kontur::is_moving(read.contours)) return run_for_frames(command, std::move(read), console);
+    if (command.cycle) throw Error(ErrorKind::invalid_input, "--cycle is for contours that were drawn at several moments");
+    const Work work = console.work(command.threads);
     for (const std::string& note : read.notes) console.warn(note);
     ContourSet& contours = read.contours;
     if (!command.empty_planes.empty())

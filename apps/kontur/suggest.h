@@ -17,6 +17,9 @@ namespace kontur::app {
 /// suggest with a --mask: planes in which its border is unlike the image.
 void run_for_mask(const SuggestCommand& command, Console& console);
 
+/// suggest of contours of several moments: frames, each with a plane.
+void run_for_frames(const SuggestCommand& command, ReadContours read, Console& console);
+
 /// The outlines of a surface in planes: to be corrected, not to be believed. Name and attributes are those of `drawn`.
 ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh, const ContourSet& drawn);
 

@@ -6,6 +6,7 @@
 #include "fields.h"
 #include "kontur/base/checks.h"
 #include "kontur/segment_moving.h"
+#include "kontur/suggest_moving.h"
 #include "points.h"
 #include "segment_keywords.h"
 
@@ -136,11 +137,56 @@ void bind_results(py::module_& m) {
     });
 }
 
+void bind_suggest_moving(py::module_& m) {
+    py::class_<MovingSuggestion> type(m, "MovingSuggestion", "When and where to draw next.");
+    type.def_readonly("frame", &MovingSuggestion::frame, "int: index into the times.");
+    type.def_readonly("plane", &MovingSuggestion::plane, "Plane: its origin lies amid the expected outline.");
+    define(
+        m, "suggest_moving", R"(In which frame to draw next, and in which plane.
+
+The frames whose volumes are least sure, each once. Where little was drawn in one, the plane is one of other moments: that in
+which the surface moves most.
+
+Parameters
+----------
+moving : MovingSegmentation
+    Of `segment_moving`.
+count : int
+    Best first, each for what the ones before it leave.
+threads : int
+    0: the machine's.
+
+Returns
+-------
+list of MovingSuggestion
+    Fewer than `count` when nothing is left.
+
+Examples
+--------
+>>> case = kontur.phantom_case("kidney_radial6")
+>>> drawn = [kontur.Contour(c.points, c.plane, frame=frame) for frame in (1, 5) for c in case.contours]
+>>> moving = kontur.segment_moving(kontur.ContourSet(drawn, cycle_frames=8), case.grid, range(1, 9))
+>>> [one] = kontur.suggest_moving(moving)
+>>> one.frame
+2
+)",
+        [](const MovingSegmentation& moving, std::int64_t count, int threads) {
+            if (count < 1)
+                throw Error(ErrorKind::invalid_input, std::to_string(count) + " planes are asked for; at least 1 is needed");
+            return unlocked([&] {
+                return suggest_moving({moving.times, moving.volumes, moving.function, moving.moments},
+                                      static_cast<std::size_t>(count), {}, {.threads = threads});
+            });
+        },
+        py::arg("moving"), py::arg("count") = 1, kThreads);
+}
+
 }  // namespace
 
 void bind_moving(py::module_& m) {
     bind_function(m);
     bind_results(m);
+    bind_suggest_moving(m);
     define(
         m, "is_moving", "Whether contours were drawn at different moments, as `segment_moving` takes them.",
         [](const ContourSet& contours) { return is_moving(contours); }, py::arg("contours"));

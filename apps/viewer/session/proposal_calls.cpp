@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "kontur/base/error.h"
-#include "kontur/sureness/suggest_plane.h"
+#include "kontur/suggest_moving.h"
 #include "viewer/edits/proposed_lines.h"
 #include "viewer/edits/sketch.h"
 #include "viewer/edits/snapped_line.h"
@@ -90,11 +91,38 @@ json outline_of(SessionState& s, const Members& m) {
     return {{"lines", std::move(lines)}};
 }
 
+json lines_in(const TriangleMesh& mesh, const Plane& plane) {
+    json lines = json::array();
+    for (const Polyline& line : proposed_lines(mesh, plane)) lines.push_back(to_json(line.points));
+    return lines;
+}
+
+/// A frame and a plane in it; the `skip`ped ones come before.
+json suggest_in_time(const SessionState& s, const Motion& motion, std::size_t skip, SuggestPlaneOptions options) {
+    json planes = json::array();
+    if (!motion.is_finished || !motion.volumes || !motion.fit) return {{"planes", planes}};
+    std::vector<double> times(motion.frames.size());
+    std::iota(times.begin(), times.end(), 1);
+    const MotionEvidence evidence{times, *motion.volumes, motion.fit->function, motion.fit->moments};
+    const std::vector<MovingSuggestion> found = suggest_moving(evidence, skip + 1, options);
+    if (found.size() <= skip) return {{"planes", planes}};
+    const MovingSuggestion& one = found[skip];
+    const auto seen = s.surfaces.at(static_cast<int>(one.frame));
+    const auto own = seen.find(motion.structure);
+    json lines = own == seen.end() || !own->second.mesh ? json::array() : lines_in(*own->second.mesh, one.plane);
+    planes.push_back({{"plane", to_json(one.plane)}, {"gain", 0}, {"lines", std::move(lines)}, {"time", one.frame}});
+    if (one.slice) planes.back()["slice"] = {{"axis", one.slice->axis}, {"index", one.slice->index}};
+    return {{"planes", std::move(planes)}};
+}
+
 json suggest(SessionState& s, const Members& m) {
     const Id structure = m.id("structure");
     SuggestPlaneOptions options{.planes = m.flag_or("slices", false) ? PlaneChoice::image_slices : PlaneChoice::any};
-    if (m.has("skip")) options.avoid = m.planes("skip");
     options.grid = s.image.voxels->grid;
+    const std::vector<Plane> skipped = m.has("skip") ? m.planes("skip") : std::vector<Plane>{};
+    if (const auto motion = s.surfaces.motions().of(structure); motion && !motion->frames.empty())
+        return suggest_in_time(s, *motion, skipped.size(), options);
+    options.avoid = skipped;
     const auto surfaces = s.surfaces.all();
     const auto found = surfaces.find(structure);
     json planes = json::array();
@@ -103,9 +131,7 @@ json suggest(SessionState& s, const Members& m) {
         return {{"planes", planes}};
     const Surface& surface = *found->second;
     for (const SuggestedPlane& one : suggest_planes(evidence_of(s, surface), *surface.drawn, 1, options).planes) {
-        json lines = json::array();
-        for (const Polyline& line : proposed_lines(*surface.mesh, one.plane)) lines.push_back(to_json(line.points));
-        json proposal{{"plane", to_json(one.plane)}, {"gain", one.gain}, {"lines", std::move(lines)}};
+        json proposal{{"plane", to_json(one.plane)}, {"gain", one.gain}, {"lines", lines_in(*surface.mesh, one.plane)}};
         if (one.slice) proposal["slice"] = {{"axis", one.slice->axis}, {"index", one.slice->index}};
         if (one.after.value > 0) proposal["expected_dice"] = to_json(one.after);
         planes.push_back(std::move(proposal));

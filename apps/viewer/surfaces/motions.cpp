@@ -193,6 +193,7 @@ void Motions::carry_out(const Step& step, const StopToken& stop) {
             known.masks = nullptr;
             motion.frames.assign(motion.frames.size(), {});
             motion.volumes.reset();
+            motion.fit.reset();
             motion.warnings = {error.what()};
             motion.is_finished = true;
         });
@@ -241,17 +242,18 @@ void Motions::fit(Id structure, const StopToken& stop) {
         }
     }
     const Work work{.stop = stop};
-    const MovingFit fitted = fitter->fit(task->set, all_frames(task->times), work);
-    const auto meshes = std::make_shared<const MeshCourse>(fitted.function, fitted.starts(),
+    const auto fitted = std::make_shared<const MovingFit>(fitter->fit(task->set, all_frames(task->times), work));
+    const auto meshes = std::make_shared<const MeshCourse>(fitted->function, fitted->starts(),
                                                            kSpacingFraction * diameter_mm(task->set), work);
-    const auto mask_course = std::make_shared<const MaskCourse>(fitted.mask_course(work));
+    const auto mask_course = std::make_shared<const MaskCourse>(fitted->mask_course(work));
     show(structure, stop, [&](KnownMotion& known, Motion& motion) {
         known.meshes = meshes;
         known.masks = mask_course;
-        known.sureness = sureness_of(fitted.moments);
+        known.sureness = sureness_of(fitted->moments);
         for (MotionFrame& frame : motion.frames) frame.is_current = false;
-        motion.sections = sections_of(fitted.moments);
-        motion.warnings = fitted.warnings;
+        motion.fit = fitted;
+        motion.sections = sections_of(fitted->moments);
+        motion.warnings = fitted->warnings;
         // The page asks for the cycle itself; the sentence names an option of the command line.
         std::erase_if(motion.warnings, [](const std::string& one) { return one.starts_with("nothing moves before"); });
         motion.is_finished = false;

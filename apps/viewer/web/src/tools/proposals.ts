@@ -89,7 +89,10 @@ export class Proposals extends Emitter<"proposal"> {
     return project.contoursOf(structure).find((contour) => project.isOfTime(contour) && coincide(contour.plane, plane, step_mm / 2));
   }
 
-  /** Turns a view to the plane on which a contour would tell most, and offers the expected outline there; once more: the next best. Returns the view. */
+  /**
+   * Turns a view to the plane on which a contour would tell most, of what moves in the frame that is least sure, and offers the expected
+   * outline there; once more: the next best. Returns the view.
+   */
   async suggest(): Promise<ViewName | null> {
     const { project, navigation, services, drawing } = this;
     const structure = project.activeStructure;
@@ -97,9 +100,8 @@ export class Proposals extends Emitter<"proposal"> {
     if (!structure || isHidden(structure.id, project, services)) return null;
     if (structure.mask)
       return (services.tell(`${structure.name} is a mask: look through its slices, and correct it where it is wrong. A says that one is right.`), null);
-    if (project.motions.has(structure.id))
-      return (services.tell(`${structure.name} moves: where to draw next is not told of that. Y proposes its outline on this slice.`), null);
-    if (!project.surfaces.get(structure.id)?.uncertainty)
+    const motion = project.motions.get(structure.id);
+    if (motion ? !motion.finished : !project.surfaces.get(structure.id)?.uncertainty)
       return (services.tell(`Nothing is suggested before the surface of ${structure.name} is finished.`), null);
     if (this.skipped.structure !== structure.id) this.skipped = { structure: structure.id, planes: [] };
     const number = ++this.suggestions;
@@ -110,6 +112,7 @@ export class Proposals extends Emitter<"proposal"> {
       if (!best)
         return (services.tell(`No other plane is suggested for ${structure.name}: it needs a finished surface, and planes that are not drawn yet.`), null);
       this.skipped.planes.push(best.plane);
+      if (best.time !== undefined) navigation.setTime(best.time);
       const view = VIEW_NAMES.find((name) => areParallel(navigation.cameras[name].axes, best.plane)) ?? "oblique";
       this.drop();
       if (!areParallel(navigation.cameras[view].axes, best.plane)) navigation.turnTo(view, best.plane);

@@ -99,6 +99,19 @@ describe("a heart that beats", () => {
     assert.ok((await volume()) < between);
   });
 
+  test("G goes to the frame that is least sure, and offers its outline; once more: to another frame", async () => {
+    const { page } = viewer;
+    await page.keyboard.press("g");
+    await page.waitForFunction(() => !["1 / 8", "5 / 8"].includes(document.querySelector("[data-test=time-frame]")!.textContent!));
+    const first = (await frame())!;
+    await page.locator(".hint", { hasText: "A proposal" }).waitFor();
+    await page.keyboard.press("g");
+    await page.waitForFunction((old) => document.querySelector("[data-test=time-frame]")!.textContent !== old, first);
+    await page.keyboard.press("Escape");
+    await page.click(".time-mark >> nth=1");
+    assert.equal(await frame(), "5 / 8");
+  });
+
   test("it is played: image, outlines and surface move", async () => {
     const { page } = viewer;
     const seen = new Set<string>();

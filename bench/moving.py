@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Dice and volumes of moving bodies at frames in which nothing was drawn. Prints a CSV.
 
-Usage: bench/moving.py [--masks ED ES] [--only BODY,...]
+Usage: bench/moving.py [--masks ED ES] [--only BODY,...] [--suggest]
 
 A cycle of 20 frames; nine slices across the body. Three drawings have whole frames, for which the linear interpolation between
 3D fits and the nearest frame are the peers; the others are contours spread over the cycle. Bodies: a ball that shrinks and grows
 with a heart's pace, one that breathes and is pushed, an ellipsoid that turns, a heart-like shell's inside, and, with --masks,
-what is between two real shapes. PYTHONPATH has to lead to kontur.
+what is between two real shapes. With --suggest: mean Dice of all frames when four slices are added to whole frames, where and when
+`kontur suggest` says, or in random frames. PYTHONPATH has to lead to kontur.
 """
 import argparse
 import csv
@@ -186,19 +187,51 @@ def rows_of(name, case):
             yield [name, drawing, len(drawn), method, *(f"{s:.4f}" for s in scores[:2]), *(f"{s:.2f}" for s in scores[2:])]
 
 
+def all_frames(case, drawn):
+    made = kontur.segment_moving(case.contours(drawn), case.grid, range(1, FRAMES + 1), use_image="off")
+    return made, case.scores([mask.values.astype(bool) for mask in made.masks], range(FRAMES))[0]
+
+
+def suggested(case, drawn, count=4):
+    """What was drawn, and slices where and when `suggest_moving` says, one after the other."""
+    drawn = list(drawn)
+    for _ in range(count):
+        for one in kontur.suggest_moving(all_frames(case, drawn)[0], FRAMES):
+            k = int(np.argmin(abs(case.body.slices - one.plane.origin[2])))
+            if (one.frame, k) not in drawn:
+                drawn.append((one.frame, k))
+                break
+    return drawn
+
+
+def rows_of_suggestions(name, case, seed=3):
+    random, count = np.random.default_rng(seed), len(case.body.slices)
+    for drawing, drawn in list(drawings(count).items())[:2]:
+        at = {f for f, _ in drawn}
+        ways = {"before": [drawn], "suggested": [suggested(case, drawn)], "any slices": [], "middle slices": []}
+        for _ in range(3):
+            frames = [int(f) for f in random.choice([f for f in range(FRAMES) if f not in at], 4, replace=False)]
+            ways["any slices"].append(drawn + [(f, int(random.integers(count))) for f in frames])
+            ways["middle slices"].append(drawn + [(f, count // 2) for f in frames])
+        for way, its in ways.items():
+            yield [name, drawing, way, f"{np.mean([all_frames(case, one)[1] for one in its]):.4f}"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--masks", nargs=2, metavar=("ED", "ES"))
     parser.add_argument("--only", default="")
+    parser.add_argument("--suggest", action="store_true")
     words = parser.parse_args()
     bodies = {"ball": Ball, "breathing": Breathing, "turning": Turning, "heart": Heart}
     if words.masks:
         bodies["ventricle"] = lambda: Between([kontur.read_mask(path) for path in words.masks])
     table = csv.writer(sys.stdout, lineterminator="\n")
-    table.writerow(["body", "drawing", "contours", "method", "dice", "least_dice", "volume_error_percent", "ef_error_points"])
+    score_names = ["contours", "method", "dice", "least_dice", "volume_error_percent", "ef_error_points"]
+    table.writerow(["body", "drawing", *(["four_more", "dice"] if words.suggest else score_names)])
     for name, body in bodies.items():
         if not words.only or name in words.only.split(","):
-            for row in rows_of(name, Case(body())):
+            for row in (rows_of_suggestions if words.suggest else rows_of)(name, Case(body())):
                 table.writerow(row)
                 sys.stdout.flush()
 

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """How often the intervals of volumes and ejection fractions hold the truth. Prints a CSV, one row for each drawing and sort of frame.
 
-Usage: bench/moving_intervals.py [BODIES [SEED]]
+Usage: bench/moving_intervals.py [--band] [BODIES [SEED]]
 
 Four bodies of bench/moving.py, and made-up ellipsoids, which shrink by a heart's pace or another one, drift, turn and bend. The
 drawings are those of bench/moving.py. Frames are whole, carried (some of their sections are), between such, or a cycle: its
-ejection fraction. PYTHONPATH has to lead to kontur.
+ejection fraction. With --band: how much of the surface lies within its 90 % band, and half of its width in mm. PYTHONPATH has to
+lead to kontur.
 """
 import collections
 import csv
@@ -64,8 +65,25 @@ def sorts(made):
             yield "between, carried" if any(at[t] for t in around) else "between whole"
 
 
+def away_mm(body, points, t, step=.25):
+    """How far points are from the true surface, by its function and its slope."""
+    slopes = [(body.values(points + step * axis, t) - body.values(points - step * axis, t)) / (2 * step) for axis in np.eye(3)]
+    return abs(body.values(points, t)) / np.linalg.norm(slopes, axis=0)
+
+
+def bands(body, case, drawn):
+    """Of each frame its sort, how much of the surface lies within the band, and half of its mean width."""
+    made = kontur.segment_moving(case.contours(drawn), case.grid, range(1, moving.FRAMES + 1), use_image="off", mesh=True)
+    for frame, sort in enumerate(sorts(made)):
+        points = made.meshes[frame].points[::20]
+        widths = kontur.moving_half_widths_mm(made, points, frame + 1)
+        if len(widths):
+            yield sort, np.mean(away_mm(body, points, frame / moving.FRAMES) <= widths), np.mean(widths)
+
+
 def main():
-    count, seed = (int(word) for word in [*sys.argv[1:], *["24", "1"][len(sys.argv) - 1:]])
+    words = [word for word in sys.argv[1:] if word != "--band"]
+    count, seed = (int(word) for word in [*words, *["24", "1"][len(words):]])
     random = np.random.default_rng(seed)
     bodies = [moving.Ball(), moving.Breathing(), moving.Turning(), moving.Heart()][:count]
     bodies += [Ellipsoid(random) for _ in range(count - len(bodies))]
@@ -74,6 +92,10 @@ def main():
         case = moving.Case(body)
         truth = [mask.sum() * case.grid.voxel_volume_mm3 / 1000 for mask in case.truth]
         for drawing, drawn in moving.drawings(len(body.slices)).items():
+            if "--band" in sys.argv:
+                for sort, held, width in bands(body, case, drawn):
+                    found[drawing, sort].append((held, width))
+                continue
             made = kontur.segment_moving(case.contours(drawn), case.grid, range(1, moving.FRAMES + 1), use_image="off")
             curve = made.volumes
             if not curve.intervals:

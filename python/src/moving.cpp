@@ -5,6 +5,7 @@
 #include "bindings.h"
 #include "fields.h"
 #include "kontur/base/checks.h"
+#include "kontur/moving_sureness.h"
 #include "kontur/segment_moving.h"
 #include "kontur/suggest_moving.h"
 #include "points.h"
@@ -137,6 +138,37 @@ void bind_results(py::module_& m) {
     });
 }
 
+void bind_half_widths(py::module_& m) {
+    define(
+        m, "moving_half_widths_mm", R"(Half the width of the band in which 90 % of the true surface lies at a time.
+
+Parameters
+----------
+moving : MovingSegmentation
+points : array_like, shape (n, 3)
+    mm, on the surface of that time.
+time : float
+    As `times` has it.
+threads : int
+    0: the machine's.
+
+Returns
+-------
+ndarray, shape (n,), float64
+    mm; empty where a moment has too few planes to tell.
+)",
+        [](const MovingSegmentation& moving, const ArrayOf<double>& points, double time, int threads) {
+            const std::span<const Vec3> rows = points_of(points);
+            std::vector<double> widths = unlocked([&] {
+                return half_widths_mm(moving.function, moving.moments, {rows.begin(), rows.end()}, time,
+                                      {.threads = threads});
+            });
+            const auto count = static_cast<py::ssize_t>(widths.size());
+            return owning_array(std::move(widths), {count});
+        },
+        py::arg("moving"), py::arg("points"), py::arg("time"), kThreads);
+}
+
 void bind_suggest_moving(py::module_& m) {
     py::class_<MovingSuggestion> type(m, "MovingSuggestion", "When and where to draw next.");
     type.def_readonly("frame", &MovingSuggestion::frame, "int: index into the times.");
@@ -186,6 +218,7 @@ Examples
 void bind_moving(py::module_& m) {
     bind_function(m);
     bind_results(m);
+    bind_half_widths(m);
     bind_suggest_moving(m);
     define(
         m, "is_moving", "Whether contours were drawn at different moments, as `segment_moving` takes them.",

@@ -341,6 +341,36 @@ def test_contours_of_a_structure_set_are_of_the_frame_whose_slices_they_refer_to
     assert "the series holds several volumes" in result.stderr
 
 
+def test_contours_of_two_frames_of_reference_are_refused_in_one_sentence(tmp_path, beats, drawn_in_time):
+    other = pydicom.dcmread(tmp_path / "5.dcm")
+    other.ReferencedFrameOfReferenceSequence[0].FrameOfReferenceUID = "1.2.3.4"
+    other.StructureSetROISequence[0].ReferencedFrameOfReferenceUID = "1.2.3.4"
+    other.save_as(tmp_path / "elsewhere.dcm")
+    for command, words in (("segment", ["--output", tmp_path / "masks.nii.gz"]), ("suggest", [])):
+        result = kontur(command, tmp_path / "1.dcm", tmp_path / "elsewhere.dcm", "--image", beats, *words)
+        assert result.returncode == 65 and result.stderr.count("\n") == 1, result.stderr
+        assert "its contours lie in the frame of reference 1.2.3.4, those before in" in result.stderr
+    assert not (tmp_path / "masks.nii.gz").exists()
+
+
+def test_suggest_names_the_frame_that_is_least_sure_and_a_plane_in_it(tmp_path, cine, contours):
+    words = ("suggest", contours, "--image", cine, "--planes", 3)
+    found = json.loads(succeed(*words, "--json"))["planes"]
+    succeed("segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz", "--volumes", tmp_path / "v.csv")
+    widths = [float(row["high_ml"]) - float(row["low_ml"]) for row in csv.DictReader((tmp_path / "v.csv").open())]
+    assert widths[found[0]["frame"] - 1] == max(widths)
+    frames = [plane["frame"] for plane in found]
+    assert len(set(frames)) == 3 and not {1, 5} & set(frames[:2])
+    assert found[0]["normal"] == [0, 0, 1] and found[0]["volume_low_ml"] < found[0]["volume_ml"] < found[0]["volume_high_ml"]
+    said = succeed(*words, "--sketch", tmp_path / "next.json")
+    assert f"frame {frames[0]}; " in said and said.count("\n") == 3
+    sketch = json.loads((tmp_path / "next.json").read_text())
+    assert sorted({c["frame"] for plane in sketch["planes"] for c in plane["contours"]}) == sorted(frames)
+    assert sketch["cycle_frames"] == FRAMES
+    succeed("segment", contours, tmp_path / "next.json", "--image", cine, "--output", tmp_path / "again.nii.gz")
+    assert json.loads(succeed(*words[:4], "--planes", 1, "--skip", 1, "--json"))["planes"][0] == found[1]
+
+
 def test_trace_and_convert_say_which_frame_contours_are_of(tmp_path, cine, contours):
     succeed("segment", contours, "--image", cine, "--output", tmp_path / "masks.nii.gz")
     for frame in (1, 5):
@@ -392,5 +422,8 @@ def test_what_cannot_be_is_refused_in_one_sentence_and_leaves_nothing(tmp_path, 
     result = kontur("segment", contours, "--image", cine, "--output", tmp_path / "masks.nrrd")
     assert result.returncode == 69 and "are written as .nii or .nii.gz" in result.stderr
     result = kontur("suggest", contours)
-    assert result.returncode == 65 and "contour 1 was drawn in frame 1 and contour 5 in frame 5" in result.stderr
+    assert result.returncode == 65 and "give a 4D --image" in result.stderr
+    result = kontur("suggest", contours, "--image", cine, "--output", tmp_path / "planes.json")
+    assert result.returncode == 65 and "--output has no room for frames" in result.stderr
+    assert "--cycle is for contours" in kontur("suggest", still, "--cycle", 8).stderr
     assert set(names(tmp_path)) - set(before) == {"late.json", "mixed.json", "still.json"}

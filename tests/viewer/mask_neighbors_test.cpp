@@ -87,10 +87,14 @@ TEST(MaskNeighbors, WhatWasCorrectedAndWhatIsTakenCountMore) {
         EXPECT_EQ(followed.front().offset, own);
         EXPECT_EQ(followed.front().how, CorrectedVoxel::removed_carried);
     }
-    const std::vector<MadeVoxel> all =
-        made_and_followed({{own, CorrectedVoxel::added_drawn}}, followed_voxels(right, {takes}));
+    const std::vector<MadeVoxel> all = made_and_followed({{own, CorrectedVoxel::removed_drawn}}, right, {takes});
     ASSERT_EQ(all.size(), 1U);
-    EXPECT_EQ(all.front().how, CorrectedVoxel::added_drawn);
+    EXPECT_EQ(all.front().how, CorrectedVoxel::removed_drawn);
+    MaskExchange keeps;
+    keeps.kept = std::make_shared<const StoredMask>(slab(0, 19.5));
+    const MaskExchanges locked{std::make_shared<const MaskExchange>(keeps)};
+    EXPECT_TRUE(made_and_followed({{beside, CorrectedVoxel::added_drawn}}, right, locked).empty()) << "a locked mask's";
+    EXPECT_EQ(made_and_followed({{own, CorrectedVoxel::removed_drawn}}, right, locked).size(), 1U);
 }
 
 /// A project with both, the first of them corrected.
@@ -182,6 +186,55 @@ TEST(MaskNeighbors, InThePageItFollowsAtOnceAndComesBack) {
     page.follow(1, {});
     EXPECT_EQ(page.followed(2), 0) << "the correction was taken back";
     EXPECT_DOUBLE_EQ(page.ml(2), ml_of(page.halves.right));
+}
+
+TEST(MaskNeighbors, ALockedOneStaysAndItsBorderIsKept) {
+    SharedSurfaces page;
+    page.surfaces.share_borders({.shared = true});
+    page.follow(1, circle_at(14));
+    page.follow(2, {});
+    const double followed = page.ml(2);
+    EXPECT_GT(page.followed(2), 0);
+    const CorrectedMask locked = after_others(correct(page.halves.right, {}), *page.right, {page.halves.exchange});
+    SurfaceTask task;
+    task.structure = 2;
+    task.mask = page.right;
+    task.kept = std::make_shared<const StoredMask>(locked.mask);
+    page.surfaces.follow(task);
+    page.surfaces.wait();
+    EXPECT_DOUBLE_EQ(page.ml(2), followed);
+    page.follow(1, {});
+    EXPECT_DOUBLE_EQ(page.ml(2), followed) << "its neighbour's correction is gone, and it stays";
+    EXPECT_LT(page.ml(1), ml_of(page.halves.left)) << "what it got from the neighbour it keeps";
+    page.follow(1, circle_at(22));  // far into the locked one
+    EXPECT_DOUBLE_EQ(page.ml(2), followed);
+    page.surfaces.share_borders({});
+    page.surfaces.wait();
+    EXPECT_DOUBLE_EQ(page.ml(2), followed) << "where borders are not shared, too";
+}
+
+TEST(MaskNeighbors, FilesHoldALockedMaskAsItWas) {
+    const Halves halves;
+    const Image image{kGrid, std::vector<std::int16_t>(halves.left.values.size())};
+    const CorrectedMask expected = after_others(correct(halves.right, {}), StoredMask(halves.right), {halves.exchange});
+    State state = project_of(halves, true);
+    const auto kept = std::make_shared<const StoredMask>(expected.mask);
+    state.masks[kept->hash()] = kept;
+    state.structures.at(2).mask->kept = kept->hash();
+    for (const double x : {14.0, 22.0, 0.0}) {
+        state.contours.clear();
+        if (x > 0) {
+            DrawnContour line = as_drawn(circle_at(x).contours.front());
+            line.id = 3;
+            line.structure = 1;
+            state.contours[line.id] = std::make_shared<const DrawnContour>(line);
+        }
+        const std::vector<FittedStructure> all = fit_structures(state, image, false, {});
+        EXPECT_EQ(all[1].segmentation.mask.values, expected.mask.values) << x;
+        EXPECT_EQ(all[1].corrected->origin, expected.origin) << x;
+        for (std::size_t n = 0; n < expected.mask.values.size(); ++n)
+            ASSERT_FALSE(all[0].segmentation.mask.values[n] && expected.mask.values[n]) << x << ": " << n;
+    }
 }
 
 TEST(MaskNeighbors, TwoThatFollowEachOtherComeToAnEnd) {

@@ -212,6 +212,52 @@ TEST(Reviews, ANeighborThatTouchesForTheFirstTimeTakesTheApprovalBack) {
     EXPECT_TRUE(visit.is_approved(visit.tumour)) << "a step of its own";
 }
 
+/// Half of a ball in the image's middle, on one side of x = 20.
+std::shared_ptr<const StoredMask> half(bool is_left) {
+    const std::shared_ptr<const Image> flat = test::flat_image();
+    Mask mask{flat->grid, std::vector<std::uint8_t>(static_cast<std::size_t>(flat->grid.voxel_count()))};
+    for (std::size_t n = 0; n < mask.values.size(); ++n) {
+        const Index3 at = index_at(n, mask.grid.size);
+        const Vec3 p = mask.grid.center_mm(at.i, at.j, at.k);
+        mask.values[n] = norm(p - Vec3{20, 20, 20}) < 12 && (p.x < 19.5) == is_left;
+    }
+    return std::make_shared<const StoredMask>(mask);
+}
+
+TEST(Reviews, ALockedMaskStaysAsItIsWhateverItsNeighborBecomes) {
+    Visit visit;
+    const std::vector<Id> ids = visit.session->add_structures("Import", std::vector<ContourSet>(2),
+                                                              ImportedMasks{{0, {half(true), ""}}, {1, {half(false), ""}}});
+    const Id left = ids[0], right = ids[1];
+    visit.done({{"call", "borders.set"}, {"shared", true}});
+    const auto ml = [&](Id id) {
+        visit.session->wait_for_surfaces();
+        const json greeting = json::parse(visit.session->greeting());
+        for (const json& one : greeting["surfaces"])
+            if (one["structure"] == id) return one["volume_ml"].get<double>();
+        return 0.0;
+    };
+    const double before = ml(right);
+    visit.done({{"call", "point.add"}, {"structure", left}, {"at", {24, 20, 20}}, {"kind", "interior"}});
+    const double followed = ml(right);
+    EXPECT_LT(followed, before) << "the neighbour has taken some of it";
+    visit.approve(right);
+    visit.lock(right);
+    EXPECT_DOUBLE_EQ(ml(right), followed);
+    EXPECT_TRUE(visit.is_approved(right)) << "it is the same body";
+    visit.done({{"call", "point.remove"}, {"structure", left}, {"at", {24, 20, 20}}});
+    EXPECT_DOUBLE_EQ(ml(right), followed);
+    EXPECT_TRUE(visit.is_approved(right)) << "it does not follow";
+    visit.session.reset();
+    visit.session = visit.open();
+    EXPECT_DOUBLE_EQ(ml(right), followed) << "the project holds it";
+    visit.lock(right, false);
+    EXPECT_DOUBLE_EQ(ml(right), before) << "now it follows again";
+    EXPECT_FALSE(visit.is_approved(right));
+    visit.done({{"call", "undo"}});
+    EXPECT_DOUBLE_EQ(ml(right), followed);
+}
+
 TEST(Reviews, AreInTheProjectWhichOlderVersionsRefuseThen) {
     Visit visit;
     const auto path = visit.folder.path() / "a.kontur";

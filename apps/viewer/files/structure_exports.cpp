@@ -251,6 +251,9 @@ FittedStructure corrected(const State& state, const Structure& structure, const 
         one.corrected = std::make_shared<const CorrectedMask>(correct({before, ExistingSurface(before, work), image},
                                                                       corrections_of(one.set, *structure.mask),
                                                                       correct_options(*structure.mask), work));
+        if (const auto kept = kept_mask_of(state, structure))
+            one.corrected = std::make_shared<const CorrectedMask>(
+                as_kept(CorrectedMask(*one.corrected), *mask_of(state, structure), *kept));
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
     }
@@ -261,10 +264,13 @@ FittedStructure corrected(const State& state, const Structure& structure, const 
 void share_mask_borders(std::vector<FittedStructure>& masks, const State& state, const Work& work) {
     const auto stored = [&](const FittedStructure& one) { return mask_of(state, one.structure); };
     MaskExchanges exchanges;
-    for (const FittedStructure& one : masks)
-        exchanges.push_back(
-            std::make_shared<const MaskExchange>(exchange_of(stored(one)->mask(), made_voxels(*one.corrected), work)));
+    for (const FittedStructure& one : masks) {
+        MaskExchange exchange = exchange_of(stored(one)->mask(), made_voxels(*one.corrected), work);
+        exchange.kept = kept_mask_of(state, one.structure);
+        exchanges.push_back(std::make_shared<const MaskExchange>(std::move(exchange)));
+    }
     for (FittedStructure& one : masks) {
+        if (kept_mask_of(state, one.structure)) continue;
         MaskExchanges others;
         for (std::size_t n = 0; n < masks.size(); ++n) {
             const BorderRule* rule = state.borders.rule_about(one.structure.id, masks[n].structure.id);

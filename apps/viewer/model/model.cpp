@@ -18,6 +18,13 @@ bool all_of_kind(const DrawnContour& contour, Stretch kind) {
                        [&](const ControlPoint& c) { return c.kind == kind; });
 }
 
+std::shared_ptr<const StoredMask> mask_named(const std::string& hash, const State& state, const Structure& structure) {
+    const auto found = state.masks.find(hash);
+    if (found == state.masks.end())
+        throw Error(ErrorKind::invalid_input, fmt::format("the mask of {} is not there", structure.name));
+    return found->second;
+}
+
 }  // namespace
 
 std::string_view name(Stretch kind) noexcept {
@@ -69,11 +76,12 @@ ContourSet without_contours(const Structure& s) {
 }
 
 std::shared_ptr<const StoredMask> mask_of(const State& state, const Structure& structure) {
-    if (!structure.mask) return nullptr;
-    const auto found = state.masks.find(structure.mask->hash);
-    if (found == state.masks.end())
-        throw Error(ErrorKind::invalid_input, fmt::format("the mask of {} is not there", structure.name));
-    return found->second;
+    return structure.mask ? mask_named(structure.mask->hash, state, structure) : nullptr;
+}
+
+std::shared_ptr<const StoredMask> kept_mask_of(const State& state, const Structure& structure) {
+    if (!structure.mask || structure.mask->kept.empty()) return nullptr;
+    return mask_named(structure.mask->kept, state, structure);
 }
 
 bool has_content(const State& state, Id structure) {

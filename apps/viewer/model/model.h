@@ -78,6 +78,7 @@ struct StructureMask {
     double reach = 1;                       ///< how far corrections are carried on, of what follows from the mask
     bool drop_loose = false;                ///< whether pieces that a correction cuts off are taken away
     std::string source{};                   ///< what made the mask, as its file said; "" where that said nothing
+    std::string kept{};                     ///< of a locked structure: names the mask that it stays; "" where none is kept
 
     friend bool operator==(const StructureMask&, const StructureMask&) = default;
 };
@@ -120,6 +121,8 @@ ContourSet without_contours(const Structure& structure);
 /// The mask that the structure's contours correct; null for one that has none. Throws Error(invalid_input) for a mask that
 /// the state does not hold.
 std::shared_ptr<const StoredMask> mask_of(const State& state, const Structure& structure);
+/// The mask that the locked structure stays, whatever becomes of its neighbours; null where none is kept. Throws likewise.
+std::shared_ptr<const StoredMask> kept_mask_of(const State& state, const Structure& structure);
 
 /// Whether there is anything of it: contours, a mask, or a rule that makes it.
 bool has_content(const State& state, Id structure);

@@ -111,6 +111,7 @@ json to_json(const SurfacePoint& point) {
 json to_json(const StructureMask& mask) {
     json told{{"hash", mask.hash}, {"reach", mask.reach}, {"drop_loose", mask.drop_loose}};
     if (!mask.source.empty()) told["source"] = mask.source;
+    if (!mask.kept.empty()) told["kept"] = mask.kept;
     told["confirmed_planes"] = json::array();
     for (const Plane& plane : mask.confirmed_planes) told["confirmed_planes"].push_back(to_json(plane));
     return told;
@@ -318,8 +319,12 @@ double Members::reach(const char* key) const {
 StructureMask mask_from_json(const json& value) {
     constexpr std::size_t kHashBytes = 64;
     const Members m(value, kStoredLimits);
-    return {m.text("hash", kHashBytes), m.planes("confirmed_planes"), m.reach("reach"), m.flag("drop_loose"),
-            m.has("source") ? m.text("source", kMostNameBytes) : ""};
+    return {m.text("hash", kHashBytes),
+            m.planes("confirmed_planes"),
+            m.reach("reach"),
+            m.flag("drop_loose"),
+            m.has("source") ? m.text("source", kMostNameBytes) : "",
+            m.has("kept") ? m.text("kept", kHashBytes) : ""};
 }
 
 Structure structure_from_json(const json& value) {

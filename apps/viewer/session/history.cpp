@@ -225,6 +225,7 @@ SurfaceTask surface_task(SessionState& s, Id structure) {
         task.smoothing = own->second.smoothing;
         task.mask = mask_of(state, own->second);
         if (task.mask) task.how = *own->second.mask;
+        task.kept = kept_mask_of(state, own->second);
     }
     std::vector<int> times;
     const auto add = [&](const DrawnContour& contour) {

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "kontur/measure/surface_distance.h"
+#include "kontur/moving_sureness.h"
 #include "kontur/sureness/surface_uncertainty.h"
 #include "viewer/model/binary_reply.h"
 #include "viewer/model/model_json.h"
@@ -53,6 +54,13 @@ std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::ve
     return reply.bytes();
 }
 
+/// Of a structure that moves.
+std::vector<double> widths_in_time(const SessionState& s, Id structure, int time, const TriangleMesh& mesh) {
+    const auto motion = s.surfaces.motions().of(structure);
+    if (!motion || !motion->fit || !motion->is_finished) return {};
+    return half_widths_mm(motion->fit->function, motion->fit->moments, mesh.points, time + 1);
+}
+
 }  // namespace
 
 std::string mesh_reply(const SessionState& s, Id structure, bool coded, const MeshExtras& extras) {
@@ -77,6 +85,8 @@ std::string mesh_reply(const SessionState& s, Id structure, bool coded, const Me
     std::vector<double> widths_mm;
     if (extras.widths && surface.evidence && has_full_resolution(surface.stage))
         widths_mm = half_widths_mm(evidence_of(s, surface), mesh.points);
+    else if (extras.widths && surface.stage == SurfaceStage::finished)
+        widths_mm = widths_in_time(s, structure, extras.time.value_or(s.image.times.own()), mesh);
     nlohmann::json head{
         {"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}};
     if (!coded) return as_numbers(std::move(head), mesh, widths_mm);

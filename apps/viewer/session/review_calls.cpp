@@ -7,6 +7,7 @@
 #include "kontur/base/error.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/names.h"
+#include "viewer/model/status_line.h"
 #include "viewer/session/calls.h"
 #include "viewer/session/history.h"
 
@@ -43,20 +44,50 @@ std::string label_of(const Review& before, const Review& after, const std::strin
     return "Comment on " + name;
 }
 
+std::uint64_t steps_of(const SessionState& s) {
+    const std::scoped_lock lock(s.mutex);
+    return s.steps;
+}
+
+/// What a mask to be corrected is just now, after its neighbours; null where it cannot be said, or nothing is left of it.
+std::shared_ptr<const StoredMask> mask_as_it_is(SessionState& s, const State& now, const Structure& structure) {
+    const StatusLine line(s.pages.status_teller(), "Locking " + structure.name);
+    try {
+        return std::make_shared<const StoredMask>(
+            s.fits.one(now, structure.id, line.work({}), {.mesh = false})->corrected->mask);
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
+/// A locked mask keeps what it is.
+std::shared_ptr<const StoredMask> mask_to_keep(SessionState& s, const State& now, const Members& m) {
+    const Structure structure = s.present_structure(now, m.id("id"));
+    const bool locks = m.flag_or("locked", false) && !structure.attributes.review.locked;
+    return locks && structure.mask ? mask_as_it_is(s, now, structure) : nullptr;
+}
+
 json set_review(SessionState& s, const Members& m) {
+    const std::uint64_t step_before = steps_of(s);
+    const std::shared_ptr<const StoredMask> kept = mask_to_keep(s, s.state(), m);
+    const std::scoped_lock lock(s.mutex);
+    if (kept && s.steps != step_before)
+        throw Error(ErrorKind::invalid_input, "something has been changed meanwhile; lock it once more");
     const Structure before = structure_of(s.project.state(), m.id("id"));
     Structure after = before;
     Review& review = after.attributes.review;
     review.locked = m.flag_or("locked", review.locked);
+    if (after.mask && review.locked != before.attributes.review.locked) after.mask->kept = kept ? kept->hash() : "";
     if (m.has("comment")) review.comment = m.text("comment", kMostCommentBytes);
     if (m.has("approved_by")) set_approval(s.project.state(), after, m.text("approved_by", kMostNameBytes));
-    if (after != before)
-        commit(s, {label_of(before.attributes.review, review, after.name), {{after.id, before, after}}, {}});
+    Commit step{label_of(before.attributes.review, review, after.name), {{after.id, before, after}}, {}};
+    if (kept) step.masks.push_back(kept);
+    if (after != before) commit(s, step);
     return {{"structure", to_json(after)}};
 }
 
 }  // namespace
 
-Calls review_calls() { return {{"structure.review", {set_review}}}; }
+Calls review_calls() { return {{"structure.review", {set_review, false}}}; }
 
 }  // namespace kontur::viewer

@@ -31,6 +31,7 @@ bool is_edited(const Structure& before, const Structure& after, bool with_rule) 
     same.visible = before.visible;
     same.attributes.review = before.attributes.review;
     if (!with_rule) same.rule = before.rule;
+    if (same.mask && before.mask) same.mask->kept = before.mask->kept;  // goes along with the lock
     return same != before;
 }
 
@@ -47,8 +48,23 @@ std::set<Id> masks_beside(const State& state, Id structure) {
     const auto mask = own == state.structures.end() ? nullptr : mask_of(state, own->second);
     if (!mask) return found;
     for (const auto& [id, other] : state.structures)
-        if (const auto its = mask_of(state, other); its && id != structure && boxes_touch(*mask, *its)) found.insert(id);
+        if (const auto its = mask_of(state, other);
+            its && id != structure && other.mask->kept.empty() && boxes_touch(*mask, *its))
+            found.insert(id);
     return found;
+}
+
+/// It is made anew for its lock alone, and stays as it is.
+bool is_locked_as_it_is(const Change<Structure>& change) {
+    const auto& [id, before, after] = change;
+    return before && after && before->mask && after->mask && !after->mask->kept.empty() && !is_edited(*before, *after, true);
+}
+
+bool draws_in(const Commit& step, Id structure) {
+    return std::ranges::any_of(step.contours, [&](const Change<DrawnContour>& change) {
+        return (change.before && change.before->structure == structure) ||
+               (change.after && change.after->structure == structure);
+    });
 }
 
 /// Structures that have another body after the step, or another name.
@@ -61,6 +77,8 @@ std::set<Id> changed_by(const SessionState& s, const Commit& step, const std::se
         return changed;
     }
     changed = touched;
+    for (const auto& change : step.structures)
+        if (is_locked_as_it_is(change) && !draws_in(step, change.id)) changed.erase(change.id);
     if (step.borders)
         for (const auto& [id, structure] : state.structures) changed.insert(id);
     if (state.borders.shared)

@@ -25,7 +25,7 @@ struct Request {
     CorrectOptions options;
     std::shared_ptr<const Image> image;
     std::uint64_t step = 0;
-    std::optional<MaskExchanges> others{};
+    MaskSurroundings around;
 };
 
 /// The voxels that corrections changed.
@@ -134,21 +134,28 @@ struct MaskEditor::Worker {
         const std::shared_ptr<const VolumeOfMask> mask = opened_mask();
         const MaskChange change =
             mask_change({mask->whole, mask->surface, image}, request.corrections, request.options, work);
-        const std::vector<MadeVoxel> voxels =
-            request.others ? made_and_followed(change.voxels, followed_voxels(*stored, *request.others)) : change.voxels;
+        const std::vector<MadeVoxel> voxels = voxels_among(request.around, change.voxels);
         CorrectedMesh corrected = mask->mesh.corrected(change.lattice.get(), voxels, Work{.stop = stop});
         auto edit = std::make_shared<MaskEdit>();
         edit->report = change.report;
         edit->report.volume_ml += static_cast<double>(voxels_more(voxels) - voxels_more(change.voxels)) *
                                   mask->whole.grid.voxel_volume_mm3() / 1000;
-        edit->followed = std::ssize(voxels) - std::ssize(change.voxels);
-        if (request.others)
-            edit->exchange =
-                std::make_shared<const MaskExchange>(exchange_of(mask->whole, change.voxels, Work{.stop = stop}));
+        edit->followed = std::max<std::int64_t>(0, std::ssize(voxels) - std::ssize(change.voxels));
+        if (request.around.others) {
+            const auto& own = request.around.kept ? voxels : change.voxels;
+            MaskExchange exchange = exchange_of(mask->whole, own, Work{.stop = stop});
+            exchange.kept = request.around.kept;
+            edit->exchange = std::make_shared<const MaskExchange>(std::move(exchange));
+        }
         edit->origins = origins_of(corrected.made_by);
         edit->mesh = std::make_shared<const TriangleMesh>(std::move(corrected.mesh));
         edit->step = step_of(changed_by(voxels, edit->report, request.step), change.report);
         return edit;
+    }
+
+    std::vector<MadeVoxel> voxels_among(const MaskSurroundings& around, const std::vector<MadeVoxel>& own) const {
+        if (around.kept) return made_and_kept(own, *stored, *around.kept);
+        return around.others ? made_and_followed(own, *stored, *around.others) : own;
     }
 
     std::optional<MaskStep> step_of(ChangedVoxels now, const CorrectReport& report) {
@@ -188,10 +195,10 @@ MaskEditor::MaskEditor(std::shared_ptr<const StoredMask> mask, Listener listener
 MaskEditor::~MaskEditor() = default;
 
 std::uint64_t MaskEditor::edit(Corrections corrections, const CorrectOptions& options, std::shared_ptr<const Image> image,
-                               std::uint64_t step, std::optional<MaskExchanges> others) {
+                               std::uint64_t step, MaskSurroundings around) {
     const std::scoped_lock lock(worker_->mutex);
     worker_->stop_image.request_stop();
-    worker_->next = Request{++worker_->edits, std::move(corrections), options, std::move(image), step, std::move(others)};
+    worker_->next = Request{++worker_->edits, std::move(corrections), options, std::move(image), step, std::move(around)};
     worker_->changed.notify_all();
     return worker_->edits;
 }

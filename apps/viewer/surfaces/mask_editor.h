@@ -31,6 +31,12 @@ struct MaskEdit {
     std::optional<MaskStep> step;                  ///< the last one; nothing where it is not known what was there before
 };
 
+/// What is around a mask.
+struct MaskSurroundings {
+    std::optional<MaskExchanges> others{};     ///< that it follows; unset: borders are not shared
+    std::shared_ptr<const StoredMask> kept{};  ///< what it stays, whatever is around; null: it is not locked
+};
+
 /// What a MaskEditor has to say about an edit.
 struct MaskUpdate {
     enum class Kind {
@@ -61,10 +67,10 @@ public:
     MaskEditor& operator=(const MaskEditor&) = delete;
 
     /// The corrections are now these; the image takes part where there is one. `step` counts steps of the history, from 1:
-    /// edits of one step, as drafts of it, are one change; 0 is what was there when the session began. `others`: that the
-    /// mask follows; unset: borders are not shared. Returns the number of the edit, counted from 1. Does not wait.
+    /// edits of one step, as drafts of it, are one change; 0 is what was there when the session began. Returns the number of
+    /// the edit, counted from 1. Does not wait.
     std::uint64_t edit(Corrections corrections, const CorrectOptions& options, std::shared_ptr<const Image> image,
-                       std::uint64_t step, std::optional<MaskExchanges> others = {});
+                       std::uint64_t step, MaskSurroundings around = {});
     /// Throws Error(invalid_input), naming a contour (counted from 1), for contours that can be no corrections of the mask.
     void check(const Corrections& corrections) const;
     /// Waits until the newest edit has its final result.

@@ -17,6 +17,26 @@ bool reaches(const MaskExchange& other, const StoredMask& own) {
     return std::ranges::any_of(other.taken, is_near) || std::ranges::any_of(other.ceded, is_near, &CededVoxel::neighbor);
 }
 
+bool is_same(const MadeVoxel& a, const MadeVoxel& b) { return a.offset == b.offset && a.how == b.how; }
+
+/// The mask of before with these voxels, and what is said of it.
+CorrectedMask with_voxels(CorrectedMask corrected, const StoredMask& own, const std::vector<MadeVoxel>& voxels) {
+    if (std::ranges::equal(made_voxels(corrected), voxels, is_same)) return corrected;
+    const Mask before = own.mask();
+    corrected.mask.values = before.values;
+    corrected.origin.assign(before.values.begin(), before.values.end());
+    for (const MadeVoxel& voxel : voxels) {
+        corrected.mask.values[voxel.offset] = voxel.is_inside();
+        corrected.origin[voxel.offset] = static_cast<std::uint8_t>(voxel.how);
+    }
+    const std::size_t was = count_inside(before), is = count_inside(corrected.mask);
+    std::size_t both = 0;
+    for (std::size_t n = 0; n < before.values.size(); ++n) both += before.values[n] != 0 && corrected.mask.values[n] != 0;
+    corrected.report.dice = 2.0 * static_cast<double>(both) / static_cast<double>(was + is);
+    corrected.report.volume_ml = static_cast<double>(is) * before.grid.voxel_volume_mm3() / 1000;
+    return corrected;
+}
+
 }  // namespace
 
 MaskExchange exchange_of(const Mask& before, const std::vector<MadeVoxel>& corrected_voxels, const Work& work) {
@@ -59,10 +79,37 @@ std::vector<MadeVoxel> followed_voxels(const StoredMask& own, const MaskExchange
     return result;
 }
 
-std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& corrected_voxels,
-                                         const std::vector<MadeVoxel>& followed) {
+std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& corrected_voxels, const StoredMask& own,
+                                         const MaskExchanges& others) {
+    const std::vector<MadeVoxel> followed = followed_voxels(own, others);
     std::vector<MadeVoxel> all;
     std::ranges::set_union(corrected_voxels, followed, std::back_inserter(all), {}, &MadeVoxel::offset, &MadeVoxel::offset);
+    for (const auto& other : others)
+        if (other->kept) {
+            const MaskVoxels kept(*other->kept);
+            std::erase_if(all, [&](const MadeVoxel& one) { return one.is_inside() && kept.contains(one.offset); });
+        }
+    return all;
+}
+
+std::vector<MadeVoxel> made_and_kept(const std::vector<MadeVoxel>& corrected_voxels, const StoredMask& own,
+                                     const StoredMask& kept) {
+    std::vector<MadeVoxel> all;
+    const MaskVoxels before(own), after(kept);
+    const IndexBox box = box_around(own.box(), kept.box());
+    auto corrected = corrected_voxels.begin();
+    for (std::int64_t k = box.low.k; k <= box.high.k; ++k)
+        for (std::int64_t j = box.low.j; j <= box.high.j; ++j)
+            for (std::int64_t i = box.low.i; i <= box.high.i; ++i) {
+                const std::size_t offset = own.grid().offset(i, j, k);
+                const bool is_inside = after.contains(offset);
+                if (is_inside == before.contains(offset)) continue;
+                while (corrected != corrected_voxels.end() && corrected->offset < offset) ++corrected;
+                const bool is_own = corrected != corrected_voxels.end() && corrected->offset == offset;
+                all.push_back(
+                    is_own ? *corrected
+                           : MadeVoxel{offset, is_inside ? CorrectedVoxel::added_carried : CorrectedVoxel::removed_carried});
+            }
     return all;
 }
 
@@ -76,19 +123,13 @@ std::vector<MadeVoxel> made_voxels(const CorrectedMask& corrected) {
 }
 
 CorrectedMask after_others(CorrectedMask corrected, const StoredMask& own, const MaskExchanges& others) {
-    const std::vector<MadeVoxel> changed = made_voxels(corrected), followed = followed_voxels(own, others);
-    if (followed.empty()) return corrected;
-    for (const MadeVoxel& voxel : made_and_followed(changed, followed)) {
-        corrected.mask.values[voxel.offset] = voxel.is_inside();
-        corrected.origin[voxel.offset] = static_cast<std::uint8_t>(voxel.how);
-    }
-    const Mask before = own.mask();
-    const std::size_t was = count_inside(before), is = count_inside(corrected.mask);
-    std::size_t both = 0;
-    for (std::size_t n = 0; n < before.values.size(); ++n) both += before.values[n] != 0 && corrected.mask.values[n] != 0;
-    corrected.report.dice = 2.0 * static_cast<double>(both) / static_cast<double>(was + is);
-    corrected.report.volume_ml = static_cast<double>(is) * before.grid.voxel_volume_mm3() / 1000;
-    return corrected;
+    std::vector<MadeVoxel> made = made_and_followed(made_voxels(corrected), own, others);
+    return with_voxels(std::move(corrected), own, made);
+}
+
+CorrectedMask as_kept(CorrectedMask corrected, const StoredMask& own, const StoredMask& kept) {
+    std::vector<MadeVoxel> made = made_and_kept(made_voxels(corrected), own, kept);
+    return with_voxels(std::move(corrected), own, made);
 }
 
 }  // namespace kontur::viewer

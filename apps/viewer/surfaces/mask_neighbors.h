@@ -21,6 +21,7 @@ namespace kontur::viewer {
 struct MaskExchange {
     std::vector<CededVoxel> ceded{};
     std::vector<std::size_t> taken{};
+    std::shared_ptr<const StoredMask> kept{};  ///< of a locked mask: all of it, none of which the others get
 
     friend bool operator==(const MaskExchange&, const MaskExchange&) = default;
 };
@@ -39,12 +40,19 @@ bool boxes_touch(const StoredMask& a, const StoredMask& b);
 /// another one gives.
 std::vector<MadeVoxel> followed_voxels(const StoredMask& own, const MaskExchanges& others);
 
-/// Of corrections, and of what follows others: by offset, each voxel once. What was corrected counts more.
-std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& corrected_voxels,
-                                         const std::vector<MadeVoxel>& followed);
+/// Of corrections, and of what follows others: by offset, each voxel once. What was corrected counts more, and what others
+/// keep counts most.
+std::vector<MadeVoxel> made_and_followed(const std::vector<MadeVoxel>& corrected_voxels, const StoredMask& own,
+                                         const MaskExchanges& others);
+
+/// Those that make a locked mask what it stays; as its own corrections made them where these agree.
+std::vector<MadeVoxel> made_and_kept(const std::vector<MadeVoxel>& corrected_voxels, const StoredMask& own,
+                                     const StoredMask& kept);
 
 /// The corrected mask after others, with its volume and its Dice.
 CorrectedMask after_others(CorrectedMask corrected, const StoredMask& own, const MaskExchanges& others);
+/// The same of a locked mask, which stays what it is.
+CorrectedMask as_kept(CorrectedMask corrected, const StoredMask& own, const StoredMask& kept);
 
 /// What corrections made of a mask, from where each of its voxels comes from.
 std::vector<MadeVoxel> made_voxels(const CorrectedMask& corrected);

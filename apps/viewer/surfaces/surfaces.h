@@ -95,6 +95,7 @@ struct SurfaceTask {
     std::optional<double> smoothing{};         ///< of the fit; unset: the usual one
     std::shared_ptr<const StoredMask> mask{};  ///< that the contours correct; null: they are all there is
     StructureMask how{};                       ///< it is corrected
+    std::shared_ptr<const StoredMask> kept{};  ///< what it stays, if it is locked
     std::uint64_t step = 0;                    ///< of the session that it comes with; a draft comes with the next one
     /// Of contours of another time than the opened one the image to be asked; null: none is.
     std::optional<std::shared_ptr<const Image>> image{};

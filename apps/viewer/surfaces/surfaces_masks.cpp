@@ -55,7 +55,7 @@ void Surfaces::start_mask(Follower& follower, SurfaceTask task) {
     }
     follower.last_edit =
         follower.edits_before + follower.mask_editor->edit(corrections_of(task.set, task.how), correct_options(task.how),
-                                                           image_, task.step, follower.others);
+                                                           image_, task.step, {follower.others, task.kept});
     follower.is_working = true;
     follower.tasks[follower.last_edit] = std::move(task);
 }
@@ -140,13 +140,15 @@ bool Surfaces::may_share_locked(Id a, Id b) {
     return known->second;
 }
 
-/// Those whose corrections change anything of the mask.
+/// Those whose corrections change anything of the mask, or that keep what it could take.
 MaskExchanges Surfaces::others_of_locked(Id structure) {
     const StoredMask& own = *mask_of_locked(structure);
     MaskExchanges others;
+    if (followers_.at(structure).tasks.rbegin()->second.kept) return others;
     for (const auto& [id, other] : followers_) {
         const StoredMask* its = id != structure && other.exchange ? mask_of_locked(id) : nullptr;
-        if (!its || its->grid() != own.grid() || followed_voxels(own, {other.exchange}).empty()) continue;
+        if (!its || its->grid() != own.grid()) continue;
+        if (!other.exchange->kept && followed_voxels(own, {other.exchange}).empty()) continue;
         if (may_share_locked(structure, id)) others.push_back(other.exchange);
     }
     return others;

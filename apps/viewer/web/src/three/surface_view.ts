@@ -193,7 +193,7 @@ export class SurfaceView {
     for (const { structure } of project.surfaces.values()) {
       const revision = project.revisionAt(structure);
       if (!this.hasSurface(structure) || this.shownRevisions.get(structure) === revision) continue;
-      const kept = this.frames.get(structure, project.time, revision);
+      const kept = this.showsBand ? null : this.frames.get(structure, project.time, revision);
       if (kept) this.show(structure, revision, kept);
       else this.fetchesOf(structure).send();
     }
@@ -206,7 +206,13 @@ export class SurfaceView {
 
   /** Fetches the surfaces of other times, the next ones first, one after the other. */
   motionsChanged(): void {
-    if (this.scene) this.ahead.send();
+    if (!this.scene) return;
+    this.ahead.send();
+    const { motions } = this.services.project;
+    const finished = [...motions.values()].filter((motion) => motion.finished);
+    if (!this.showsBand || finished.length === 0) return;
+    for (const { structure } of finished) this.shownRevisions.delete(structure); // how sure they are is known only now
+    this.surfacesChanged();
   }
 
   /** Settles when the surfaces that are seen have come. */

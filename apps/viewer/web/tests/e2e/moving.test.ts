@@ -108,6 +108,12 @@ describe("a heart that beats", () => {
     await page.keyboard.press("g");
     await page.waitForFunction((old) => document.querySelector("[data-test=time-frame]")!.textContent !== old, first);
     await page.keyboard.press("Escape");
+    await page.click("[data-test=band]");
+    await page.locator("[data-test=band-scale]", { hasText: "90 % band" }).waitFor();
+    const between = await page.locator("[data-test=band-scale]").textContent();
+    await page.click(".time-mark >> nth=0");
+    await page.waitForFunction((old) => document.querySelector("[data-test=band-scale]")!.textContent !== old, between);
+    await page.click("[data-test=scale-end]");
     await page.click(".time-mark >> nth=1");
     assert.equal(await frame(), "5 / 8");
   });

@@ -367,7 +367,8 @@ def test_suggest_names_the_frame_that_is_least_sure_and_a_plane_in_it(tmp_path, 
     sketch = json.loads((tmp_path / "next.json").read_text())
     assert sorted({c["frame"] for plane in sketch["planes"] for c in plane["contours"]}) == sorted(frames)
     assert sketch["cycle_frames"] == FRAMES
-    succeed("segment", contours, tmp_path / "next.json", "--image", cine, "--output", tmp_path / "again.nii.gz")
+    again = kontur("segment", contours, tmp_path / "next.json", "--image", cine, "--output", tmp_path / "again.nii.gz")
+    assert again.returncode == 0 and "5 moments drawn" in again.stdout, again.stderr
     assert json.loads(succeed(*words[:4], "--planes", 1, "--skip", 1, "--json"))["planes"][0] == found[1]
 
 

@@ -198,7 +198,7 @@ export class SurfaceView {
       else this.fetchesOf(structure).send();
     }
     this.who.hidden = ![...project.surfaces.values()].some(({ correction }) => correction);
-    this.band.hidden = ![...project.surfaces.values()].some(({ uncertainty }) => uncertainty?.known);
+    this.band.hidden = !this.isSomethingSure();
     this.scene.setMarks(markedPlaces(project.seenSurfaces()));
     this.restyle();
     this.showHint();
@@ -208,11 +208,18 @@ export class SurfaceView {
   motionsChanged(): void {
     if (!this.scene) return;
     this.ahead.send();
+    this.band.hidden = !this.isSomethingSure();
     const { motions } = this.services.project;
     const finished = [...motions.values()].filter((motion) => motion.finished);
     if (!this.showsBand || finished.length === 0) return;
     for (const { structure } of finished) this.shownRevisions.delete(structure); // how sure they are is known only now
     this.surfacesChanged();
+  }
+
+  /** Whether it is known of a surface how sure it is. */
+  private isSomethingSure(): boolean {
+    const { surfaces, motions } = this.services.project;
+    return [...surfaces.values()].some(({ uncertainty }) => uncertainty?.known) || [...motions.values()].some(({ curve }) => curve?.intervals_ml);
   }
 
   /** Settles when the surfaces that are seen have come. */

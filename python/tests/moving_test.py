@@ -109,6 +109,22 @@ def test_bad_input_is_refused(contours, grid):
         kontur.MovingFunction([1, 1], [kontur.ImplicitFunction("biharmonic", [0, 0, 0], 1, [[0, 0, 0]], [1], [0, 0, 0, 0])] * 2)
 
 
+def test_the_frame_that_is_least_sure_is_suggested_first(made):
+    first, second = kontur.suggest_moving(made, 2)
+    widths = [one.high_ml - one.low_ml for one in made.volumes.intervals]
+    assert widths[first.frame] == max(widths) and first.frame != second.frame
+    with pytest.raises(kontur.InvalidInputError, match="0 planes are asked for"):
+        kontur.suggest_moving(made, 0)
+
+
+def test_the_band_is_wider_between_moments(contours, grid):
+    moving = kontur.segment_moving(contours, grid, range(1, FRAMES + 1), mesh=True)
+    times = [m.time for m in moving.moments]
+    mean = [kontur.moving_half_widths_mm(moving, mesh.points, n + 1).mean() for n, mesh in enumerate(moving.meshes)]
+    between = numpy.mean([w for n, w in enumerate(mean) if n + 1 not in times])
+    assert between > numpy.mean([mean[int(t) - 1] for t in times])
+
+
 def test_a_folder_of_files_is_read_frame_by_frame(tmp_path, contours, grid, made):
     for frame in range(1, FRAMES + 1):
         image = kontur.Image(numpy.full(grid.shape, frame, numpy.int16), grid)

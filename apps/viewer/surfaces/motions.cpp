@@ -242,10 +242,11 @@ void Motions::fit(Id structure, const StopToken& stop) {
         }
     }
     const Work work{.stop = stop};
-    const auto fitted = std::make_shared<const MovingFit>(fitter->fit(task->set, all_frames(task->times), work));
+    const auto fitted = std::make_shared<MovingFit>(fitter->fit(task->set, all_frames(task->times), work));
     const auto meshes = std::make_shared<const MeshCourse>(fitted->function, fitted->starts(),
                                                            kSpacingFraction * diameter_mm(task->set), work);
     const auto mask_course = std::make_shared<const MaskCourse>(fitted->mask_course(work));
+    for (DrawnMoment& moment : fitted->moments) moment.segmentation.mask.values.clear();  // its grid alone is needed now
     show(structure, stop, [&](KnownMotion& known, Motion& motion) {
         known.meshes = meshes;
         known.masks = mask_course;

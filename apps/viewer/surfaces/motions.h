@@ -35,7 +35,7 @@ struct Motion {
     std::vector<std::string> warnings;   ///< of the fit, or why there is none
     /// Stand for contours where little was drawn, by time: sections in planes that were drawn at other times.
     std::map<int, std::vector<Contour>> sections;
-    std::shared_ptr<const MovingFit> fit;  ///< that all of this is of
+    std::shared_ptr<const MovingFit> fit;  ///< that all of this is of, without its moments' voxels
 };
 
 /// What a motion is made of.

@@ -18,8 +18,7 @@ constexpr std::size_t kMostProbes = 40;
 // Of a tube's radius: what its wall may stand out by. Of two arches and two straight tubes the mean Dice is .957; half .959,
 // which leaves less to tubes that do widen.
 constexpr double kBulge = 0.05;
-constexpr double kWallNoise = 0.05;  // of the same; half and twice .957
-constexpr std::size_t kRimPoints = 24;
+constexpr double kWallNoise = 0.05;           // of the same; half and twice .957
 constexpr std::size_t kWallSteps[] = {2, 4};  // places of the way: a quarter and half of it
 
 bool others_show_nothing(const std::vector<DrawnRegion>& regions, const TubeWay& way, const Vec3& place) {
@@ -43,7 +42,7 @@ void append_walls(const std::vector<DrawnRegion>& regions, const TubeWay& way, b
     const double belief = way.belief * way.chain;
     if (belief < kLeastBelief) return;
     const double radius = way.radius_mm(), scale = to.radius_mm / from.radius_mm;
-    const std::size_t stride = std::max<std::size_t>(1, line.size() / kRimPoints);
+    const std::size_t stride = std::max<std::size_t>(1, line.size() / kLinePlaces);
     for (std::size_t i = 0; i < line.size(); i += stride) {
         const Vec3 off = here.section.plane.from_uv(line[i]) - from.center;
         const Vec3 off_there = scale * (is_back ? turned(off, way.enters, way.leaves) : turned(off, way.leaves, way.enters));

@@ -13,8 +13,6 @@
 namespace kontur {
 namespace {
 
-constexpr double kLinePlaces = 24;  // per outline
-
 std::vector<Vec3> places_of(const Section& section, const std::vector<Probe>& inside) {
     std::vector<Vec3> places;
     for (const Probe& probe : inside) places.push_back(section.plane.from_uv(probe.at));

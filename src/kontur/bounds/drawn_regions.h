@@ -70,6 +70,9 @@ double faded(double noise_mm, double belief);
 /// Bounds that are believed less than this are left out: their noise is ten thousand times as large.
 constexpr double kLeastBelief = 0.01;
 
+/// Places at which one outline is asked.
+constexpr std::size_t kLinePlaces = 24;
+
 /// Sections are of one tube up to so many radii, fading out; kFar: half costs tubes .060.
 constexpr double kFar = 8, kTooFar = 10;
 /// ... and where they are so many times as far apart as from the sections before them.

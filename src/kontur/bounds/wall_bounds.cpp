@@ -17,7 +17,6 @@ constexpr double kApart = 1.5;             // of the region's inscribed radius; 
 constexpr double kDepths[] = {0.5, 1, 2};  // of the same
 constexpr double kBulge = 0.1;             // of the depth; half .947, twice .934
 constexpr double kNoise = 0.05;            // of the depth; half .950, twice .947
-constexpr std::size_t kRimPoints = 24;     // per outline: .948; the others were measured with 40
 
 /// A plane ahead of a region, and how much of the region it does not show.
 struct PlaneAhead {
@@ -53,7 +52,7 @@ public:
         std::vector<Bound> bounds;
         const std::optional<Behind> next = next_behind();
         for (const Polygon2& line : own_.section.outlines) {
-            const std::size_t stride = std::max<std::size_t>(1, line.size() / kRimPoints);
+            const std::size_t stride = std::max<std::size_t>(1, line.size() / kLinePlaces);
             for (std::size_t i = 0; i < line.size(); i += stride) {
                 const Vec3 rim = own_.section.plane.from_uv(line[i]);
                 const double flare = next ? slope(*next, rim) : 0;

@@ -25,7 +25,6 @@ constexpr double kBeside = 0.3;                     // of their distance beside 
 constexpr double kEdge = 2;                         // heights from its outline a dome is as high as in the middle
 constexpr double kNoise = 0.05, kGuessNoise = 0.3;  // of the height
 constexpr double kGuess = 0.2;                      // belief in a height that is but a guess
-constexpr std::size_t kRimPoints = 40;              // per outline; 24 cost one in 8 slices up to .002
 constexpr double kSeen = 1.3;  // heights to the border of the image that show an end; up to 1 it may lie beyond
 
 /// The gaps between the planes before a section, the nearest first: those of planes that are tilted against it count less.
@@ -133,7 +132,7 @@ public:
             ++count;
         }
         // The outline itself must not be carried on, neither straight nor flaring.
-        const std::size_t stride = std::max<std::size_t>(1, line.size() / kRimPoints);
+        const std::size_t stride = std::max<std::size_t>(1, line.size() / kLinePlaces);
         for (std::size_t i = 0; i < line.size(); i += stride) add(own_.section.plane.from_uv(line[i]), height, -height / 4);
         return open > 0.5 * count;
     }

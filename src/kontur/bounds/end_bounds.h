@@ -20,7 +20,7 @@ struct EndHeight {
 /// area without its holes, less for the thickness t across which planes were drawn, guess^2 / (guess + 3/4 t).
 /// The odds that they were drawn across all of it are (t / guess)^(4 / n) 2^(n (n - 1) / 2) with
 /// n gaps, of which sum (g / widest g)^1.5 are counted: each pair of gaps that are alike doubles them. Planes tilted by up
-/// to 30 degrees count less and less. No higher than 1.5 guesses, and a quarter higher than single points of the surface and
+/// to 20 degrees count less and less. No higher than 1.5 guesses, and a quarter higher than single points of the surface and
 /// of the inside. Continuous in the planes' places.
 EndHeight end_height(const DrawnPlanes& planes, const Section& section, double sign, double guess_mm);
 

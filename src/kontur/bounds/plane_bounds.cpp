@@ -13,9 +13,7 @@ namespace {
 
 constexpr double kInside = 0.05;       // of how deep a place lies inside: the surface may pass close above it
 constexpr double kInsideNoise = 0.03;  // of the same
-// Of a tube's radius: so near to its way's surface nothing is sure. Of four helices half changes no figure, twice .0001.
-constexpr double kWall = 0.5;
-constexpr double kSurelyNear = 0.25;  // of the distance to the lines: what others show nearer than that decides
+constexpr double kSurelyNear = 0.25;   // of the distance to the lines: what others show nearer than that decides
 
 /// How far a place is known to lie outside, and how much of that is to be believed.
 struct Outside {
@@ -163,12 +161,6 @@ private:
                 if (const double most = surely(nearer * apart / clear); most > side)
                     side = std::max(side, most * smooth_step(0, 0.5, std::abs(ahead / apart)));
             });
-            if (before > 0 && behind > 0 && !other.search.contains(other.section.plane.to_uv(place))) {
-                // One plane shows both sides, and the gap between them.
-                const double least = std::min(before, behind);
-                before -= least;
-                behind -= least;
-            }
             shown_before = std::max(shown_before, before);
             shown_behind = std::max(shown_behind, behind);
         }
@@ -183,7 +175,7 @@ private:
             const double apart = way->distance_mm(place) - way->radius_mm();
             if (apart >= outside.distance_mm) continue;
             outside.distance_mm += hides * (std::max(apart, 0.0) - outside.distance_mm);
-            outside.belief *= 1 - hides * (1 - smooth_step(0, kWall * way->radius_mm(), apart));
+            outside.belief *= 1 - hides * (1 - smooth_step(0, way->radius_mm(), apart));
         }
         return outside;
     }

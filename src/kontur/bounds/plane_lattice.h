@@ -45,9 +45,10 @@ inline Bound outside_bound(const Vec3& place, double outside_mm, double step_mm,
             .noise_mm = faded(0.1 * std::max(outside_mm, step_mm / 8), belief)};
 }
 
-/// How much another plane crosses one: 0 for a parallel one, 1 from 30 degrees on.
+/// How much another plane crosses one: 0 for a parallel one, 1 from 20 degrees on. From 30 on 81 organ drawings change by
+/// .00002 in the mean, one by .0008; arches and helices whose rings are 3 radii apart lose .001 and .0025.
 inline double crossing(const Vec3& normal, const Vec3& other) {
-    constexpr double kSlantedSine2 = 0.25;
+    constexpr double kSlantedSine2 = 0.12;
     const double cosine = dot(normal, other);
     return smooth_step(0, kSlantedSine2, 1 - cosine * cosine);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kontur/base/smooth_step.h"
+#include "kontur/bounds/plane_lattice.h"
 
 namespace kontur {
 namespace {
@@ -19,14 +20,6 @@ constexpr double kTooNear = 2.8;  // ... nor tilted ones. For all sections an ao
 /// Cosine of the way with the mean of both normals: two planes that the way crosses more obliquely do not tell its
 /// direction.
 constexpr double kStraight = 0.9;
-
-/// How much two planes are tilted against each other, 1 from 20 degrees on. From 14 on no helix changes, from 30 on one of
-/// three breaks.
-double slant(const Vec3& normal, const Vec3& other) {
-    constexpr double kSlantedSine2 = 0.12;
-    const double cosine = dot(normal, other);
-    return smooth_step(0, kSlantedSine2, 1 - cosine * cosine);
-}
 
 std::vector<RegionPart> parts_of(const std::vector<DrawnRegion>& regions) {
     std::vector<RegionPart> parts;
@@ -112,7 +105,7 @@ private:
         const double radius = std::max(parts_[part].radius_mm, parts_[next.part].radius_mm);
         const double radii = next.away_mm / radius;
         double belief = 1 - smooth_step(kFar, kTooFar, radii);
-        if (radii < kNearest) belief *= slant(normal(part), normal(next.part)) * smooth_step(kTooNear, kNearest, radii);
+        if (radii < kNearest) belief *= crossing(normal(part), normal(next.part)) * smooth_step(kTooNear, kNearest, radii);
         for (const auto& other : {ahead(part, -sign), ahead(next.part, -back)})
             if (other) belief *= 1 - smooth_step(kUneven, kTooUneven, next.away_mm / std::max(other->away_mm, 1e-300));
         return belief;
@@ -157,7 +150,7 @@ double TubeWay::distance_mm(const Vec3& place) const {
 }
 
 double TubeWay::hides(const Vec3& normal) const {
-    return belief * chain * std::max(slant(normal, leaves), slant(normal, enters));
+    return belief * chain * std::max(crossing(normal, leaves), crossing(normal, enters));
 }
 
 std::vector<TubeWay> tube_ways(const std::vector<DrawnRegion>& regions) { return Tubes(regions).find(); }

@@ -21,7 +21,7 @@ constexpr double kNoise = 0.05;            // of the depth; half .950, twice .94
 /// A plane ahead of a region, and how much of the region it does not show.
 struct PlaneAhead {
     double distance_mm;
-    double parallel;  ///< 1, and 0 from 30 degrees on
+    double parallel;  ///< 1, and 0 from 20 degrees on
     double empty;     ///< share of the region
 };
 

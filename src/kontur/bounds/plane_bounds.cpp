@@ -11,6 +11,7 @@
 namespace kontur {
 namespace {
 
+// Without these bounds 35 drawings by hand lose .0012, one .017; 71 exact ones do not tell.
 constexpr double kInside = 0.05;       // of how deep a place lies inside: the surface may pass close above it
 constexpr double kInsideNoise = 0.03;  // of the same
 constexpr double kSurelyNear = 0.25;   // of the distance to the lines: what others show nearer than that decides
@@ -132,7 +133,8 @@ private:
         return own_.search.contains(at) || own_.search.clearance(at) < image_->voxel_mm();
     }
 
-    /// A crossing hides as much around it as the lines are away from it.
+    /// A crossing hides as much around it as the lines are away from it. Without, 35 drawings by hand lose .0028, one .013;
+    /// 71 exact ones do not tell.
     double clearance(const Point2& at) const {
         double clear = own_.search.clearance(at);
         for (const auto& [crossing, from_lines] : own_.crossings)

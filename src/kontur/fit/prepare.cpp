@@ -33,8 +33,10 @@ namespace kontur {
 namespace {
 
 // Of the drawing's diameter.
-constexpr double kBulge = 0.01;     // a curve stands out from an edge; normal constraints lie 1.35 % of it beside the line
-constexpr double kGapReach = 0.15;  // how far opposite walls are looked for
+constexpr double kBulge = 0.01;  // a curve stands out from an edge; normal constraints lie 1.35 % of it beside the line
+// How far opposite walls are looked for. Not at all: a wedge of three clicks falls from .992 to .986, 81 drawings and 30
+// solids do not tell.
+constexpr double kGapReach = 0.15;
 
 bool is_coplanar(const DrawnPlanes& planes, const Extents& extents) {
     const Plane& plane = planes.set.contours.front().plane;
@@ -235,7 +237,8 @@ Contour subdivided(const Contour& contour, int least_segments, const DrawnCorner
 /// The contours reduced and subdivided, each for itself; of the points that were `drawn` the asked share stays.
 std::vector<PreparedLine> lines_of(const ContourSet& set, const ContourSet& drawn, const DrawnCorners& corners,
                                    const PrepareOptions& options) {
-    constexpr int kFiner = 8;  // than elsewhere, at most, where lines are narrow
+    // Than elsewhere, at most, where lines are narrow. Without, an L of 60 x 3 mm by its corners falls from .98 to .95.
+    constexpr int kFiner = 8;
     const int least = least_segments(options, set.contours.size());
     std::vector<PreparedLine> lines;
     for (const Contour& contour : set.contours) {

@@ -70,7 +70,7 @@ double faded(double noise_mm, double belief);
 /// Bounds that are believed less than this are left out: their noise is ten thousand times as large.
 constexpr double kLeastBelief = 0.01;
 
-/// Places at which one outline is asked. 40 around ends: 63 organ drawings gain .00007 in the mean, one of them .003.
+/// Places at which one outline is asked.
 constexpr std::size_t kLinePlaces = 24;
 
 /// Sections are of one tube up to so many radii, fading out; kFar: half costs tubes .060.

@@ -21,6 +21,8 @@ constexpr double kBeyondPoints = 1.25;
 constexpr double kLedOn = 0.35;  // of the height: the object surely goes on where a region lies so far ahead
 constexpr double kNoise = 0.05, kGuessNoise = 0.3;  // of the height
 constexpr double kGuess = 0.2;                      // belief in a height that is but a guess
+// Per outline. 24: 63 organ drawings lose .00007, one of them .003, and a ring with a wall of 3 mm grows by 5 %.
+constexpr std::size_t kRimPoints = 40;
 constexpr double kSeen = 1.3;  // heights to the border of the image that show an end; up to 1 it may lie beyond
 
 /// The gaps between the planes before a section, the nearest first: those of planes that are tilted against it count less.
@@ -128,7 +130,7 @@ public:
             ++count;
         }
         // The outline itself must not be carried on, neither straight nor flaring.
-        const std::size_t stride = std::max<std::size_t>(1, line.size() / kLinePlaces);
+        const std::size_t stride = std::max<std::size_t>(1, line.size() / kRimPoints);
         for (std::size_t i = 0; i < line.size(); i += stride) add(own_.section.plane.from_uv(line[i]), height, -height / 4);
         return open > 0.5 * count;
     }

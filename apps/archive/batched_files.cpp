@@ -36,8 +36,8 @@ void BatchedFiles::fail(const File& file, int reason) const {
                 fmt::format("cannot write {}: {}", (folder_ / file.name).string(), std::generic_category().message(reason)));
 }
 
-bool BatchedFiles::is_awaited() const {
-    return !ended_.empty() && std::chrono::steady_clock::now() - flushed_ >= kLongestWait;
+void BatchedFiles::wait() {
+    if (!ended_.empty() && std::chrono::steady_clock::now() - flushed_ >= kLongestWait) flush();
 }
 
 void BatchedFiles::begin(const std::string& name) {
@@ -48,7 +48,7 @@ void BatchedFiles::begin(const std::string& name) {
 }
 
 void BatchedFiles::write(std::string_view bytes) {
-    if (is_awaited()) flush();
+    wait();
     const File& file = open_.back();
     bytes_ += bytes.size();
     while (!bytes.empty()) {
@@ -64,7 +64,8 @@ void BatchedFiles::end() {
     ::sync_file_range(open_.back().descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
     ended_.push_back(open_.back());
     open_.pop_back();
-    if (is_awaited() || ended_.size() >= kMostFiles || bytes_ >= kMostBytes) flush();
+    if (ended_.size() >= kMostFiles || bytes_ >= kMostBytes) flush();
+    wait();
 }
 
 void BatchedFiles::flush() {

@@ -27,6 +27,8 @@ public:
     void end();
     /// Whatever was ended is on the disk, under its name.
     void flush();
+    /// To be called while nothing comes, too: flushes what has waited long enough.
+    void wait();
 
 private:
     struct File {

@@ -62,6 +62,8 @@ public:
         on_file_();
     }
 
+    void wait() { files_.wait(); }
+
 private:
     void open() {
         const std::string uid = media_storage_uid(beginning_);
@@ -94,6 +96,7 @@ public:
     explicit PartsAnswer(PartFiles& files) : files_(files) {}
     void begin(const Answer& answer) override { reader_.emplace(border_of(answer.content_type), files_); }
     void piece(std::string_view bytes) override { reader_->feed(bytes); }
+    void wait() override { files_.wait(); }
     void finish() const {
         if (reader_) reader_->finish();
     }

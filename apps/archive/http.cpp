@@ -125,7 +125,11 @@ struct Http::Transfer {
         return transfer.guarded([&] { count = transfer.request.body(buffer, size); }) ? count : CURL_READFUNC_ABORT;
     }
     static int on_progress(void* self, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
-        return static_cast<Transfer*>(self)->work.stop.stop_requested() ? 1 : 0;
+        Transfer& transfer = *static_cast<Transfer*>(self);
+        const bool may_go_on = transfer.guarded([&] {
+            if (transfer.sink && transfer.has_begun) transfer.sink->wait();
+        });
+        return may_go_on && !transfer.work.stop.stop_requested() ? 0 : 1;
     }
 };
 

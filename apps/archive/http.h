@@ -43,11 +43,12 @@ struct Answer {
     std::string body;  ///< of answers without a sink, and of those that are no success
 };
 
-/// Called with a successful answer's type, then with its pieces.
+/// Called with a successful answer's type, then with its pieces, and once a second at least while none comes.
 struct AnswerSink {
     virtual ~AnswerSink() = default;
     virtual void begin(const Answer& answer) = 0;
     virtual void piece(std::string_view bytes) = 0;
+    virtual void wait() {}
 };
 
 /// HTTP with one archive, over one connection that is kept. Not for concurrent use.

@@ -31,6 +31,7 @@ private:
     std::optional<std::filesystem::path> folder() const;
     void look_into(const std::filesystem::path& folder);
     void add(const std::filesystem::path& file);
+    std::string picture_in(const std::filesystem::path& folder, std::optional<double> at_mm);
 
     const std::vector<std::filesystem::path> folders_;
     std::mutex mutex_;             ///< of what follows

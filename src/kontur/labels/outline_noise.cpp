@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kShare = 0.05;
 
+}  // namespace
+
 double half_thickness_mm(const PaintedObject& object) {
     double sum = 0;
     for (const PaintedSlice& slice : object.slices) {
@@ -20,8 +22,6 @@ double half_thickness_mm(const PaintedObject& object) {
     }
     return sum / static_cast<double>(std::max<std::size_t>(object.slices.size(), 1));
 }
-
-}  // namespace
 
 std::optional<double> outline_smoothing(const PaintedObject& object, const ContourSet& contours) {
     const double radius = smallest_ball(contours).radius;

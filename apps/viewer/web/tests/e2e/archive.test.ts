@@ -3,29 +3,11 @@
 import assert from "node:assert/strict";
 import { readdirSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import type { Browser } from "playwright-core";
-import { launch } from "./browsers";
-import { Orthanc } from "./orthanc";
-import { circle, cleanUp, Server, temporaryFolder, Viewer } from "./support";
+import { test } from "node:test";
+import { ArchivePage } from "./archive_page";
+import { circle, Viewer } from "./support";
 
-const folder = temporaryFolder();
-const archive = new Orthanc(join(folder.path, "orthanc"));
-let address = "";
-let server: Server;
-let browser: Browser;
-
-before(async () => {
-  address = await archive.serve();
-  if (address === "") return;
-  browser = await launch();
-  server = await Server.startAt({ HOME: folder.path, XDG_CACHE_HOME: join(folder.path, "cache") }, folder.path, "--archive", address);
-});
-
-after(() => {
-  archive.end();
-});
-cleanUp(folder, () => [browser, server]);
+const site = new ArchivePage();
 
 const picture = async (viewer: Viewer, name: string) => {
   const into = process.env["KONTUR_PICTURES"];
@@ -33,8 +15,8 @@ const picture = async (viewer: Viewer, name: string) => {
 };
 
 test("lists studies, shows the series of one with a picture, and opens it", async (t) => {
-  if (address === "") return t.skip("orthanc or orthanc-dicomweb is not installed");
-  const viewer = await Viewer.openStart(browser, server.address);
+  if (site.address === "") return t.skip("orthanc or orthanc-dicomweb is not installed");
+  const viewer = await Viewer.openStart(site.browser, site.server.address);
   const { page } = viewer;
   const study = page.locator("[data-test=study]");
   await study.waitFor();
@@ -60,10 +42,10 @@ test("lists studies, shows the series of one with a picture, and opens it", asyn
   await viewer.waitForContours(1);
   await viewer.surfaceShown();
   await page.click("[data-test=export]");
-  await page.locator("[data-test=sending] h3", { hasText: `Send to ${new URL(address).host}` }).waitFor();
+  await page.locator("[data-test=sending] h3", { hasText: `Send to ${new URL(site.address).host}` }).waitFor();
   const said = page.locator("[data-test=sent]");
   const modalities = async (): Promise<string[]> => {
-    const [found] = (await (await fetch(`${address}/studies?includefield=00080061`)).json()) as Record<string, { Value?: string[] }>[];
+    const [found] = (await (await fetch(`${site.address}/studies?includefield=00080061`)).json()) as Record<string, { Value?: string[] }>[];
     return found!["00080061"]?.Value ?? [];
   };
   assert.deepEqual(await modalities(), ["CT"]);
@@ -71,7 +53,7 @@ test("lists studies, shows the series of one with a picture, and opens it", asyn
   await said.filter({ hasText: "has stored it in the study of the image." }).waitFor();
   await picture(viewer, "archive_sent");
   assert.deepEqual((await modalities()).sort(), ["CT", "SEG"]);
-  await archive.ended();
+  await site.archive.ended();
   await page.click('[data-test="send-rtstruct.dcm"]');
   await said.filter({ hasText: "DICOM RTSTRUCT was not sent: " }).waitFor();
   await picture(viewer, "archive_not_sent");
@@ -79,17 +61,17 @@ test("lists studies, shows the series of one with a picture, and opens it", asyn
   await said.filter({ hasText: "DICOM RTSTRUCT was not sent: " }).waitFor();
 
   // Neither kontur nor the archive is there any more. Both come back, and it is sent as it was.
-  const outbox = join(folder.path, "kontur", "outbox");
+  const outbox = join(site.folder.path, "kontur", "outbox");
   const [kept, ...others] = readdirSync(outbox);
   assert.match(kept!, /_rtstruct\.dcm$/);
   assert.deepEqual(others, []);
   assert.equal(statSync(outbox).mode & 0o777, 0o700);
   assert.equal(statSync(join(outbox, kept!)).mode & 0o777, 0o600);
   await page.close();
-  await server.end();
-  assert.equal(await archive.serve(new URL(address).port), address);
-  server = await Server.startAt({ HOME: folder.path, XDG_CACHE_HOME: join(folder.path, "cache") }, folder.path, "--archive", address);
-  const again = await Viewer.openStart(browser, server.address);
+  await site.server.end();
+  assert.equal(await site.archive.serve(new URL(site.address).port), site.address);
+  await site.start();
+  const again = await Viewer.openStart(site.browser, site.server.address);
   await again.page.locator("[data-test=recent]").first().click();
   await again.page.locator(".notice", { hasText: "DICOM RTSTRUCT was made before and did not arrive at" }).waitFor();
   await picture(again, "archive_waiting");

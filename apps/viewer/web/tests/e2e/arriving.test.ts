@@ -2,39 +2,21 @@
 // A series that comes over a slow line: its slices are seen as they come.
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import type { Browser } from "playwright-core";
-import { launch } from "./browsers";
-import { Orthanc } from "./orthanc";
+import { after, test } from "node:test";
+import { ArchivePage } from "./archive_page";
 import { SlowLink } from "./slow_link";
-import { cleanUp, Server, temporaryFolder, Viewer } from "./support";
+import { Viewer } from "./support";
 
 const SLICES = 40; // of the patient
-const folder = temporaryFolder();
-const archive = new Orthanc(join(folder.path, "orthanc"));
 const line = new SlowLink();
-let address = "";
-let server: Server;
-let browser: Browser;
-
-before(async () => {
-  archive.makePatient();
-  address = await archive.serve();
-  if (address === "") return;
-  browser = await launch();
-  const environment = { HOME: folder.path, XDG_CACHE_HOME: join(folder.path, "cache") };
-  server = await Server.startAt(environment, folder.path, "--archive", await line.to(address));
-});
-
+const site = new ArchivePage({ patient: true, reached: (address) => line.to(address) });
 after(() => {
   line.close();
-  archive.end();
 });
-cleanUp(folder, () => [browser, server]);
 
 test("slices of a series are seen as they come, and scrolled through, before all are here", async (t) => {
-  if (address === "") return t.skip("orthanc or orthanc-dicomweb is not installed");
-  const viewer = await Viewer.openStart(browser, server.address);
+  if (site.address === "") return t.skip("orthanc or orthanc-dicomweb is not installed");
+  const viewer = await Viewer.openStart(site.browser, site.server.address);
   const { page } = viewer;
   await page.click("[data-test=study]");
   await page.locator("[data-test=archived-volume] img[data-painted=true]").waitFor();

@@ -2,44 +2,25 @@
 // A planner's day: a study from the archive, a tumour, its margin within the body and away from the cord, a correction, approvals, and back.
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import type { Browser } from "playwright-core";
-import { launch } from "./browsers";
-import { Orthanc } from "./orthanc";
-import { circle, cleanUp, Server, temporaryFolder, Viewer } from "./support";
+import { test } from "node:test";
+import { ArchivePage } from "./archive_page";
+import { circle, Viewer } from "./support";
 
-const folder = temporaryFolder();
-const archive = new Orthanc(join(folder.path, "orthanc"));
-let address = "";
-let server: Server;
-let browser: Browser;
-
-before(async () => {
-  archive.makePatient();
-  address = await archive.serve();
-  if (address === "") return;
-  browser = await launch();
-  server = await Server.startAt({ HOME: folder.path, XDG_CACHE_HOME: join(folder.path, "cache") }, folder.path, "--archive", address);
-});
-
-after(() => {
-  archive.end();
-});
-cleanUp(folder, () => [browser, server]);
+const site = new ArchivePage({ patient: true });
 
 /** What the archive says of the structure set that it has: by tags. */
 async function structureSet(): Promise<Record<string, { Value?: unknown[] }>> {
   const headers = { accept: "application/dicom+json" };
-  const [study] = (await (await fetch(`${address}/studies`, { headers })).json()) as Record<string, { Value?: string[] }>[];
+  const [study] = (await (await fetch(`${site.address}/studies`, { headers })).json()) as Record<string, { Value?: string[] }>[];
   const uid = study!["0020000D"]!.Value![0]!;
-  const all = (await (await fetch(`${address}/studies/${uid}/metadata`, { headers })).json()) as Record<string, { Value?: unknown[] }>[];
+  const all = (await (await fetch(`${site.address}/studies/${uid}/metadata`, { headers })).json()) as Record<string, { Value?: unknown[] }>[];
   return all.find((one) => one["00080060"]?.Value?.[0] === "RTSTRUCT")!;
 }
 
 test("a planner's day", async (t) => {
-  if (address === "") return t.skip("orthanc or orthanc-dicomweb is not installed");
+  if (site.address === "") return t.skip("orthanc or orthanc-dicomweb is not installed");
   const began = Date.now();
-  const viewer = await Viewer.openStart(browser, server.address);
+  const viewer = await Viewer.openStart(site.browser, site.server.address);
   const { page } = viewer;
   const picture = async (name: string) => {
     const into = process.env["KONTUR_PICTURES"];

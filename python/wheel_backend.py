@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the wheel and the sdist (PEP 517) with a C++20 compiler, CMake and what `requires` names; the sdist needs git.
 
-The module links against the libraries of this machine, so the wheel is for machines like it, and lacks what needs a library that is
-missing (wheel_parts.cmake). With
---config-settings=static=FOLDER, which has static libraries of DCMTK, it stands alone, and has other libraries in it (needs patchelf):
-packaging/build_wheel makes both. With
---config-settings=build-dir=FOLDER a build that is there is packed instead of a new one; relative folders count from the
-repository. `python3 python/wheel_backend.py FOLDER` writes the sdist into a folder.
+The module links against the libraries of this machine, so the wheel is for machines like it. It lacks what needs a library that is
+missing (wheel_parts.cmake). With --config-settings=static=FOLDER, which has static libraries of DCMTK, it stands alone, and has
+other libraries in it (needs patchelf): packaging/build_wheel makes both. With --config-settings=build-dir=FOLDER a build that is
+there is packed instead of a new one; relative folders count from the repository. `python3 python/wheel_backend.py FOLDER` writes the sdist into a folder.
 """
 import base64
 import hashlib

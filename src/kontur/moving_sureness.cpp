@@ -5,22 +5,17 @@
 #include <cmath>
 #include <numeric>
 
-#include "kontur/evidence.h"
-#include "kontur/sureness/surface_uncertainty.h"
+#include "kontur/suggest.h"
 
 namespace kontur {
 namespace {
 
 // Behind each: how much of the surface lies within between whole moments, and between such with carried sections, of 8
 // made-up bodies with seven drawings each, where these make .904 and .945 (bench/moving_intervals.py --band).
-constexpr double kOfDistance =
-    0.3;  // of how far the surface moves between two moments, half of the way. .15 .872, .928; .6 .930, .959
-constexpr double kOfTime = 0.02;  // of its size, half of the way round a cycle. .01 .876, .935; .04 .938, .957
-
-/// At the points, by the moment's contours and what stands for others.
-std::vector<double> widths_of(const DrawnMoment& moment, const std::vector<Vec3>& points, const Work& work) {
-    return half_widths_mm(gather_evidence(moment.segmentation, moment.set, work), points, work);
-}
+// Of how far the surface moves between two moments, half of the way. .15 .872, .928; .6 .930, .959.
+constexpr double kOfDistance = 0.3;
+// Of its size, half of the way round a cycle. .01 .876, .935; .04 .938, .957.
+constexpr double kOfTime = 0.02;
 
 double size_of(const DrawnMoment& moment) {
     const std::vector<double>& areas = moment.segmentation.samples.areas_mm2;
@@ -34,8 +29,9 @@ std::vector<double> half_widths_mm(const MovingFunction& function, const std::ve
     const TimeCourse& course = function.course();
     const TimeCourse::Place place = course.place_of(time);
     const DrawnMoment &before = moments[place.before], &after = moments[place.after];
-    std::vector<double> widths = widths_of(before, points, work);
-    const std::vector<double> later = place.before == place.after ? widths : widths_of(after, points, work);
+    std::vector<double> widths = half_widths_mm(before.segmentation, before.set, points, work);
+    const std::vector<double> later =
+        place.before == place.after ? widths : half_widths_mm(after.segmentation, after.set, points, work);
     if (widths.size() != points.size() || later.size() != points.size()) return {};
     if (place.before == place.after) return widths;
     std::vector<double> before_values(points.size()), after_values(points.size());

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kontur/evidence.h"
 #include "kontur/sampling/drawn_lines.h"
+#include "kontur/suggest.h"
 
 namespace kontur {
 namespace {
@@ -112,9 +112,8 @@ std::vector<MovingSuggestion> suggest_moving(const MotionEvidence& evidence, std
             found.push_back({frame, *plane});
         } else if (own) {
             const ContourSet drawn = drawn_at(*own);
-            const PlaneSuggestions next =
-                suggest_planes(gather_evidence(own->segmentation, drawn, work), drawn, 1, options, work);
-            for (const SuggestedPlane& one : next.planes) found.push_back({frame, one.plane, one.slice});
+            for (const SuggestedPlane& one : suggest_planes(own->segmentation, drawn, 1, options, work).planes)
+                found.push_back({frame, one.plane, one.slice});
         }
         take_along(doubts, evidence, frame);
     }

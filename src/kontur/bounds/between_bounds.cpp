@@ -42,9 +42,8 @@ void append_walls(const std::vector<DrawnRegion>& regions, const TubeWay& way, b
     const double belief = way.belief * way.chain;
     if (belief < kLeastBelief) return;
     const double radius = way.radius_mm(), scale = to.radius_mm / from.radius_mm;
-    const std::size_t stride = std::max<std::size_t>(1, line.size() / kLinePlaces);
-    for (std::size_t i = 0; i < line.size(); i += stride) {
-        const Vec3 off = here.section.plane.from_uv(line[i]) - from.center;
+    for_each_step(line, kLinePlaces, [&](const Point2& p) {
+        const Vec3 off = here.section.plane.from_uv(p) - from.center;
         const Vec3 off_there = scale * (is_back ? turned(off, way.enters, way.leaves) : turned(off, way.leaves, way.enters));
         const Point2 at = there.section.plane.to_uv(to.center + off_there);
         const double flare = there.search.contains(at) ? there.search.clearance(at) : 0;
@@ -56,25 +55,24 @@ void append_walls(const std::vector<DrawnRegion>& regions, const TubeWay& way, b
                               .most_mm = part * flare + kBulge * radius,
                               .noise_mm = faded(kWallNoise * radius, belief)});
         }
-    }
+    });
 }
 
 void append(const std::vector<DrawnRegion>& regions, const TubeWay& way, std::vector<Bound>& bounds) {
     const DrawnRegion &here = regions[way.from.region], &there = regions[way.to.region];
-    const std::size_t stride = std::max<std::size_t>(1, way.from.probes.size() / kMostProbes);
-    for (std::size_t i = 0; i < way.from.probes.size(); i += stride) {
-        const Vec3 off = here.section.plane.from_uv(way.from.probes[i].at) - way.from.center;
+    for_each_step(way.from.probes, kMostProbes, [&](const Probe& probe) {
+        const Vec3 off = here.section.plane.from_uv(probe.at) - way.from.center;
         const Vec3 off_there = way.to.radius_mm / way.from.radius_mm * turned(off, way.leaves, way.enters);
         const Point2 at = there.section.plane.to_uv(way.to.center + off_there);
-        if (!there.search.contains(at)) continue;
-        const double depth = std::min(way.from.probes[i].depth, there.search.clearance(at));
+        if (!there.search.contains(at)) return;
+        const double depth = std::min(probe.depth, there.search.clearance(at));
         const Vec3 place = way.middle() + 0.5 * (off + off_there);
         if (!others_show_nothing(regions, way, place))
             bounds.push_back({.position = place,
                               .least_mm = kValue * depth,
                               .noise_mm = faded(kNoise * depth, way.belief),
                               .by_side = true});
-    }
+    });
 }
 
 }  // namespace

@@ -17,10 +17,8 @@ std::vector<Vec3> places_of(const Section& section, const std::vector<Probe>& in
     std::vector<Vec3> places;
     for (const Probe& probe : inside) places.push_back(section.plane.from_uv(probe.at));
     const auto share = static_cast<std::size_t>(each_of_many(section.outlines.size(), kLinePlaces));
-    for (const Polygon2& outline : section.outlines) {
-        const std::size_t stride = std::max<std::size_t>(1, outline.size() / share);
-        for (std::size_t i = 0; i < outline.size(); i += stride) places.push_back(section.plane.from_uv(outline[i]));
-    }
+    for (const Polygon2& outline : section.outlines)
+        for_each_step(outline, share, [&](const Point2& p) { places.push_back(section.plane.from_uv(p)); });
     return places;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -72,6 +73,14 @@ constexpr double kLeastBelief = 0.01;
 
 /// Places at which one outline is asked.
 constexpr std::size_t kLinePlaces = 24;
+
+/// Calls visit(place) for places at equal steps: `count` of them, up to twice as many where that does not divide, all of
+/// fewer.
+template <class Place, class Visit>
+void for_each_step(const std::vector<Place>& places, std::size_t count, const Visit& visit) {
+    const std::size_t stride = std::max<std::size_t>(1, places.size() / count);
+    for (std::size_t i = 0; i < places.size(); i += stride) visit(places[i]);
+}
 
 /// Sections are of one tube up to so many radii, fading out; kFar: half costs tubes .060.
 constexpr double kFar = 8, kTooFar = 10;

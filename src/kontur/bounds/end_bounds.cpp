@@ -20,8 +20,6 @@ constexpr double kNoGap = 1e300;     // mm
 constexpr double kBeyondPoints = 1.25;
 constexpr double kLedOn = 0.35;  // of the height: the object surely goes on where a region lies so far ahead
 constexpr double kNoise = 0.05, kGuessNoise = 0.3;  // of the height
-// Of their distance beside the section, which is taken off what these reach. 0: 81 organ drawings and 30 solids do not tell.
-constexpr double kBeside = 0.3;
 // Heights from its outline a dome is as high as in the middle. Everywhere lower: six discs have 91 ml for 94 (right: 90), a
 // stack with a speck far ahead is over a quarter larger than without.
 constexpr double kEdge = 2;
@@ -136,8 +134,7 @@ public:
             ++count;
         }
         // The outline itself must not be carried on, neither straight nor flaring.
-        const std::size_t stride = std::max<std::size_t>(1, line.size() / kRimPoints);
-        for (std::size_t i = 0; i < line.size(); i += stride) add(own_.section.plane.from_uv(line[i]), height, -height / 4);
+        for_each_step(line, kRimPoints, [&](const Point2& p) { add(own_.section.plane.from_uv(p), height, -height / 4); });
         return open > 0.5 * count;
     }
 
@@ -147,20 +144,13 @@ private:
         return planes_.image ? smooth_step(1, kSeen, planes_.image->border_ahead_mm(foot, up_) / height) : 1;
     }
 
-    /// How far contours of other directions lead on beyond the plane: less, the less they are tilted against it and the
-    /// farther they lie beside the region.
+    /// How far contours of other directions lead on beyond the plane: less, the less they are tilted against it.
     double reach_of_others() const {
         const Plane& plane = own_.section.plane;
         double most = 0;
-        const auto consider = [&](const Vec3& p, double slant) {
-            const double ahead = sign_ * plane.distance_to(p) * slant;
-            if (ahead <= most) return;
-            const Point2 at = plane.to_uv(p);
-            most = std::max(most, ahead - (own_.search.contains(at) ? 0 : kBeside * own_.search.clearance(at)));
-        };
         for (const Contour& contour : planes_.set.contours) {
             const double slant = norm(cross(plane.normal, contour.plane.normal));
-            for (const Vec3& p : contour.points) consider(p, slant);
+            for (const Vec3& p : contour.points) most = std::max(most, sign_ * plane.distance_to(p) * slant);
         }
         return most;
     }

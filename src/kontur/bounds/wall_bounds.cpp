@@ -51,10 +51,9 @@ public:
     std::vector<Bound> bounds(double belief) const {
         std::vector<Bound> bounds;
         const std::optional<Behind> next = next_behind();
-        for (const Polygon2& line : own_.section.outlines) {
-            const std::size_t stride = std::max<std::size_t>(1, line.size() / kLinePlaces);
-            for (std::size_t i = 0; i < line.size(); i += stride) {
-                const Vec3 rim = own_.section.plane.from_uv(line[i]);
+        for (const Polygon2& line : own_.section.outlines)
+            for_each_step(line, kLinePlaces, [&](const Point2& p) {
+                const Vec3 rim = own_.section.plane.from_uv(p);
                 const double flare = next ? slope(*next, rim) : 0;
                 for (const double share : kDepths) {
                     const double below = share * depth_;
@@ -63,8 +62,7 @@ public:
                                       .most_mm = below * flare + kBulge * below,
                                       .noise_mm = faded(kNoise * below, belief)});
                 }
-            }
-        }
+            });
         return bounds;
     }
 

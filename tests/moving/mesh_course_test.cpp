@@ -125,5 +125,16 @@ TEST(MovingFitter, AMomentThatStaysIsNotFittedAgainAndAllIsAsOfASingleFit) {
     EXPECT_EQ(again.function.value(at, 2.5), alone.function.value(at, 2.5));
 }
 
+TEST(MeshCourse, ChangesAlongItsSurfacesAreThoseOfTheFunction) {
+    for (const double time : {1.0, 2.5, 5.0, 9.0}) {
+        const std::vector<Vec3> points = course().at(time).points;
+        const std::vector<double> changes = course().changes(points, time);
+        const std::vector<double> of_function = fit().function.changes(points, time);
+        for (std::size_t n = 0; n < points.size(); ++n)
+            ASSERT_NEAR(changes[n], of_function[n], 0.05 + 0.02 * of_function[n]) << time << " " << n;
+    }
+    EXPECT_EQ(course().changes({{0, 0, 1000}}, 3), std::vector<double>{0}) << "far from all that is known";
+}
+
 }  // namespace
 }  // namespace kontur

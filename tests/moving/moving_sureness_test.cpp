@@ -63,6 +63,15 @@ TEST(MovingSureness, BetweenMomentsItIsWiderWhereMoreMovesAndNextToThemItIsTheSa
     for (std::size_t n = 0; n < points.size(); ++n) EXPECT_NEAR(there[n], beside[n], 1e-3) << n;
 }
 
+TEST(MovingSureness, WhatIsKeptOfMomentsTellsTheSameAtAnyTime) {
+    const MovingSegmentation moving = made(balls(7, 22));
+    const MovingSureness kept(moving.function.course(), moving.moments);
+    for (const double time : {1.0, 4.0, 7.0, 11.0}) {
+        const std::vector<Vec3>& points = moving.meshes[static_cast<std::size_t>(time) - 1].points;
+        EXPECT_EQ(kept.half_widths_mm(points, moving.function.changes(points, time), time), widths(moving, time)) << time;
+    }
+}
+
 TEST(MovingSureness, NothingIsSaidWhereAMomentDoesNotTell) {
     const MovingSegmentation moving = made(balls(7, 22, {-9, 9}));
     EXPECT_TRUE(widths(moving, 1).empty());

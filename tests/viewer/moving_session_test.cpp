@@ -12,6 +12,7 @@
 
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
+#include "kontur/moving_sureness.h"
 #include "kontur/segment_moving.h"
 #include "support/temporary_folder.h"
 #include "viewer/drawn_contours.h"
@@ -103,16 +104,21 @@ struct BeatingSession {
     }
 };
 
-/// JSON and positions of a mesh.
-std::pair<json, std::vector<float>> mesh_at(Session& session, Id id, int time) {
-    const std::string bytes = session.mesh(id, false, {.time = time});
+/// JSON of a reply, and one of its arrays.
+std::pair<json, std::vector<float>> numbers(const std::string& bytes, const char* array_name) {
     std::uint32_t size = 0;
     std::memcpy(&size, bytes.data(), 4);
     json head = json::parse(bytes.substr(4, size));
-    const json& array = head["arrays"]["positions"];
-    std::vector<float> positions(array["count"].get<std::size_t>());
-    std::memcpy(positions.data(), bytes.data() + 4 + size + array["offset"].get<std::size_t>(), 4 * positions.size());
-    return {std::move(head), std::move(positions)};
+    const json& array = head["arrays"][array_name];
+    std::vector<float> numbers(array["count"].get<std::size_t>());
+    std::memcpy(numbers.data(), bytes.data() + 4 + size + array["offset"].get<std::size_t>(), 4 * numbers.size());
+    return {std::move(head), std::move(numbers)};
+}
+
+std::string mesh_bytes(Session& session, Id id, int time) { return session.mesh(id, false, {.widths = true, .time = time}); }
+
+std::pair<json, std::vector<float>> mesh_at(Session& session, Id id, int time) {
+    return numbers(mesh_bytes(session, id, time), "positions");
 }
 
 double farthest_mm(const std::vector<float>& positions) {
@@ -170,6 +176,22 @@ TEST(MovingSession, EachFrameHasItsSurface) {
     const json head = json::parse(bytes.substr(4, size));
     EXPECT_EQ(head["outlines"].at(0)["revision"], motion["revisions"][4]);
     EXPECT_TRUE(head["contours"].empty()) << "nothing was drawn in this frame";
+}
+
+TEST(MovingSession, HowSureAFrameIsIsWhatTheLibrarySays) {
+    BeatingSession here;
+    const Id id = here.two_frames();
+    const MovingSegmentation made = here.by_library(id);
+    for (const int time : {kOwn, 4}) {
+        const std::vector<float> positions = numbers(mesh_bytes(*here.session, id, time), "positions").second;
+        const std::vector<float> widths = numbers(mesh_bytes(*here.session, id, time), "half_widths_mm").second;
+        std::vector<Vec3> points;
+        for (std::size_t n = 0; n + 2 < positions.size(); n += 3)
+            points.push_back({positions[n], positions[n + 1], positions[n + 2]});
+        const std::vector<double> expected = half_widths_mm(made.function, made.moments, points, time + 1);
+        ASSERT_EQ(widths.size(), expected.size());
+        for (std::size_t n = 0; n < widths.size(); ++n) EXPECT_NEAR(widths[n], expected[n], 0.05) << time << " " << n;
+    }
 }
 
 TEST(MovingSession, WhatIsUndoneAndWhatIsOpenedAgainIsWhatItWas) {

@@ -3,7 +3,6 @@
 #include <span>
 
 #include "kontur/measure/surface_distance.h"
-#include "kontur/moving_sureness.h"
 #include "kontur/sureness/surface_uncertainty.h"
 #include "viewer/model/binary_reply.h"
 #include "viewer/model/model_json.h"
@@ -57,8 +56,9 @@ std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::ve
 /// Of a structure that moves.
 std::vector<double> widths_in_time(const SessionState& s, Id structure, int time, const TriangleMesh& mesh) {
     const auto motion = s.surfaces.motions().of(structure);
-    if (!motion || !motion->fit || !motion->is_finished) return {};
-    return half_widths_mm(motion->fit->function, motion->fit->moments, mesh.points, time + 1);
+    if (!motion || !motion->sureness || !motion->is_finished) return {};
+    const double frame = time + 1;
+    return motion->sureness->half_widths_mm(mesh.points, motion->meshes->changes(mesh.points, frame), frame);
 }
 
 }  // namespace

@@ -194,6 +194,8 @@ void Motions::carry_out(const Step& step, const StopToken& stop) {
             motion.frames.assign(motion.frames.size(), {});
             motion.volumes.reset();
             motion.fit.reset();
+            motion.meshes.reset();
+            motion.sureness.reset();
             motion.warnings = {error.what()};
             motion.is_finished = true;
         });
@@ -250,9 +252,10 @@ void Motions::fit(Id structure, const StopToken& stop) {
     show(structure, stop, [&](KnownMotion& known, Motion& motion) {
         known.meshes = meshes;
         known.masks = mask_course;
-        known.sureness = sureness_of(fitted->moments);
         for (MotionFrame& frame : motion.frames) frame.is_current = false;
         motion.fit = fitted;
+        motion.meshes = meshes;
+        motion.sureness.reset();
         motion.sections = sections_of(fitted->moments);
         motion.warnings = fitted->warnings;
         // The page asks for the cycle itself; the sentence names an option of the command line.
@@ -280,25 +283,27 @@ void Motions::add_mesh(const Step& step, const StopToken& stop) {
 
 void Motions::add_volumes(Id structure, const StopToken& stop) {
     std::shared_ptr<const MaskCourse> masks;
-    std::vector<MomentSureness> sureness;
-    int times = 0;
+    std::shared_ptr<const Motion> latest;
     {
         const std::scoped_lock lock(mutex_);
         const auto found = motions_.find(structure);
         if (found == motions_.end() || !found->second.masks) return;
         masks = found->second.masks;
-        sureness = found->second.sureness;
-        times = static_cast<int>(found->second.latest->frames.size());
+        latest = found->second.latest;
     }
+    const auto times = static_cast<int>(latest->frames.size());
+    const std::vector<DrawnMoment>& moments = latest->fit->moments;
     std::vector<double> volumes;
     for (int time = 0; time < times; ++time) {
         if (stop.stop_requested()) return;
         volumes.push_back(volume_ml(masks->at(frame_number(time))));
     }
-    std::vector<VolumeInterval> intervals = volume_intervals(*masks, sureness, all_frames(times), volumes);
+    std::vector<VolumeInterval> intervals = volume_intervals(*masks, sureness_of(moments), all_frames(times), volumes);
+    auto sureness = std::make_shared<const MovingSureness>(masks->course(), moments, Work{.stop = stop});
     show(structure, stop, [&](KnownMotion& known, Motion& motion) {
         known.masks = nullptr;
         motion.volumes = volume_curve(std::move(volumes), std::move(intervals));
+        motion.sureness = std::move(sureness);
         motion.is_finished = !missing_time(motion);
     });
 }

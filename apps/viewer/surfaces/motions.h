@@ -14,6 +14,7 @@
 
 #include "kontur/base/stop.h"
 #include "kontur/moving/mesh_course.h"
+#include "kontur/moving_sureness.h"
 #include "kontur/segment_moving.h"
 #include "viewer/model/model.h"
 
@@ -35,7 +36,9 @@ struct Motion {
     std::vector<std::string> warnings;   ///< of the fit, or why there is none
     /// Stand for contours where little was drawn, by time: sections in planes that were drawn at other times.
     std::map<int, std::vector<Contour>> sections;
-    std::shared_ptr<const MovingFit> fit;  ///< that all of this is of, without its moments' voxels
+    std::shared_ptr<const MovingFit> fit;            ///< that all of this is of, without its moments' voxels
+    std::shared_ptr<const MeshCourse> meshes;        ///< of the fit
+    std::shared_ptr<const MovingSureness> sureness;  ///< of the fit, with the volumes
 };
 
 /// What a motion is made of.
@@ -83,7 +86,6 @@ private:
         std::shared_ptr<const Motion> latest;
         std::shared_ptr<const MeshCourse> meshes;  ///< of the contours of now; null: nothing more can be made
         std::shared_ptr<const MaskCourse> masks;   ///< until the volumes are known
-        std::vector<MomentSureness> sureness;      ///< of the moments of these masks
         std::shared_ptr<MovingFitter> fitter;
         std::optional<double> smoothing;  ///< of the fitter,
         bool uses_image = false;          ///< likewise

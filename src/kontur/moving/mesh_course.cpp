@@ -143,4 +143,38 @@ TriangleMesh MeshCourse::at(double time) const {
     return polygonize(surface);
 }
 
+std::optional<std::size_t> MeshCourse::number_of(const Index3& point) const {
+    const auto offset = [&](const Index3& p) { return grid_.offset(p.i, p.j, p.k); };
+    const auto found = std::ranges::lower_bound(points_, offset(point), {}, offset);
+    if (found == points_.end() || *found != point) return std::nullopt;
+    return static_cast<std::size_t>(found - points_.begin());
+}
+
+std::vector<double> MeshCourse::changes(const std::vector<Vec3>& points_mm, double time) const {
+    std::vector<double> changes(points_mm.size(), 0.0);
+    const TimeCourse::Place place = course_.place_of(time);
+    if (place.before == place.after) return changes;
+    const std::size_t moments = course_.times().size();
+    const Affine3 to_index = grid_.index_to_mm.inverse();
+    for (std::size_t n = 0; n < points_mm.size(); ++n) {
+        const Vec3 at = to_index.apply(points_mm[n]);
+        const Index3 cell{std::llround(std::floor(at.x)), std::llround(std::floor(at.y)), std::llround(std::floor(at.z))};
+        double sum = 0, weights = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const Index3 p = Lattice::corner(cell, corner);
+            const double weight = (1 - std::abs(at.x - static_cast<double>(p.i))) *
+                                  (1 - std::abs(at.y - static_cast<double>(p.j))) *
+                                  (1 - std::abs(at.z - static_cast<double>(p.k)));
+            // Points of a surface lie on edges: of a cell beside those that are known, rounding alone asks for corners.
+            const std::optional<std::size_t> number = weight > 1e-9 ? number_of(p) : std::nullopt;
+            if (!number) continue;
+            const float* values = &values_[*number * moments];
+            sum += weight * (values[place.after] - values[place.before]);
+            weights += weight;
+        }
+        if (weights > 0) changes[n] = std::abs(sum / weights);
+    }
+    return changes;
+}
+
 }  // namespace kontur

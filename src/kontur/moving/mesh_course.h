@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -26,17 +27,21 @@ public:
     /// Closed, oriented outward, with outward unit normals; empty where nothing is inside.
     TriangleMesh at(double time) const;
 
+    /// MovingFunction::changes at points of the surface at that time, of the lattice's values.
+    std::vector<double> changes(const std::vector<Vec3>& points_mm, double time) const;
+
     double spacing_mm() const { return grid_.spacing_mm().x; }
 
 private:
     void mark_moments(const std::vector<SurfaceLattice>& surfaces);
     void choose_points(const std::vector<SurfaceLattice>& surfaces);
     void evaluate(const MovingFunction& function, const Work& work);
+    std::optional<std::size_t> number_of(const Index3& point) const;
 
     TimeCourse course_;
     Grid grid_;
     std::vector<std::vector<bool>> inside_;  ///< at each moment, of each point of the lattice
-    std::vector<Index3> points_;             ///< whose values are known
+    std::vector<Index3> points_;             ///< whose values are known, i fastest
     std::vector<Index3> cells_;              ///< between such points alone
     std::vector<float> values_;              ///< of each of them at all moments, mm
 };

@@ -2,6 +2,7 @@
 #include "kontur/moving/moving_function.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/base/checks.h"
 
@@ -29,6 +30,16 @@ void MovingFunction::values(std::span<const Vec3> points_mm, double time, std::s
         for (std::size_t k = 0; k < values.size(); ++k) values[k] = at[k][n];
         out[n] = course_.value(place, values);
     }
+}
+
+std::vector<double> MovingFunction::changes(const std::vector<Vec3>& points_mm, double time, const Work& work) const {
+    const TimeCourse::Place place = course_.place_of(time);
+    std::vector<double> before(points_mm.size()), after = before;
+    if (place.before == place.after) return before;
+    functions_[place.before].values(points_mm, before, work);
+    functions_[place.after].values(points_mm, after, work);
+    for (std::size_t n = 0; n < before.size(); ++n) after[n] = std::abs(after[n] - before[n]);
+    return after;
 }
 
 }  // namespace kontur

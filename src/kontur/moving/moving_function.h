@@ -24,6 +24,8 @@ public:
     double value(const Vec3& point_mm, double time) const;
     /// out[i] = value(points[i], time), in bulk. Throws Error(invalid_input) unless there is one place for each point.
     void values(std::span<const Vec3> points_mm, double time, std::span<double> out, const Work& work = {}) const;
+    /// How far each value is at the moment before from that at the moment after; 0 at a moment.
+    std::vector<double> changes(const std::vector<Vec3>& points_mm, double time, const Work& work = {}) const;
 
 private:
     TimeCourse course_;

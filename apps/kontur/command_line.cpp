@@ -317,7 +317,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     rule("--exclusive", c.exclusive, "The structures A and B share no voxel; again for more");
     add_curves(*bind.sub, c.read.curves);
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
-    bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
+    bind.defaulted("--label-value", c.label.label, "N", "Value of the voxels inside");
     add_holes(*bind.sub, c.holes);
     add_series_words(*bind.sub, c.series);
     bind.flag("--date", c.date, "Say in the outputs when they were made; without it the same input gives the same bytes");

@@ -48,9 +48,9 @@ struct SegmentCommand {
     std::filesystem::path uncertainty;                      ///< half widths of the band, as image or .ply; likewise
     std::filesystem::path volumes;                          ///< of contours drawn at several moments: .csv; likewise
     std::optional<double> cycle;                            ///< after which their motion repeats, in their unit
-    WriteMaskOptions mask;
-    std::string name;                   ///< of the structure; empty: the contour file's
-    std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
+    LabelName label;                                        ///< of the voxels inside
+    std::string name;                                       ///< of the structure; empty: the contour file's
+    std::optional<HoleEncoding> holes;                      ///< of an RTSTRUCT; nullopt: as its writer does by itself
     SeriesWords series;
     bool date = false;  ///< say in the outputs when they were made
     SegmentOptions options;

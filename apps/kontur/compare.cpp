@@ -75,7 +75,8 @@ void run(const CompareCommand& command, Console& console) {
                                             *b.label, command.b.string())});
     Facts facts = {{"label_a", label_of(a)}, {"label_b", label_of(b)}};
     facts.update(describe(compare(a.mask, b.mask, work)));
-    if (command.differences > 0) facts["differences"] = list_of(differences(a.mask, b.mask, {}, work), command.differences);
+    if (command.differences > 0)
+        facts["differences"] = list_of(differences(a.mask, b.mask, kSaddle, work), command.differences);
     console.print(command.json ? to_json_text(facts) : to_text(facts));
 }
 

@@ -154,7 +154,7 @@ void convert_to_mask(const ConvertCommand& command, const fs::path& output, cons
                     fmt::format("no voxel of {} lies within {}", command.image.string(), path.string()));
     if (inside.is_cut)
         console.warn(fmt::format("{} reaches beyond {} and is cut off there", path.string(), command.image.string()));
-    if (!has_room_for_overlap(output)) return write_mask(output, inside.mask, {.provenance = provenance});
+    if (!has_room_for_overlap(output)) return write_mask(output, inside.mask, {}, provenance);
     Structures one;
     one.segments.push_back({.label = printable_utf8(path.stem().string()), .color = kStructureColor});
     one.masks.push_back(std::move(inside.mask));

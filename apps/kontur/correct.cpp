@@ -190,7 +190,7 @@ void run(const CorrectCommand& command, Console& console) {
     });
     if (!command.provenance_map.empty())
         outputs.write(command.provenance_map, [&](const fs::path& path) {
-            kontur::write_image(path, {of.corrected.mask.grid, of.corrected.origin}, {origin_names(), of.provenance});
+            kontur::write_image(path, {of.corrected.mask.grid, of.corrected.origin}, origin_names(), of.provenance);
         });
     if (!command.report.empty())
         outputs.write(command.report, [&](const fs::path& path) {

@@ -78,7 +78,7 @@ std::vector<std::string> write_map(const fs::path& path, const std::vector<Deriv
         names.push_back(one.outlines.name);
         labels.push_back({label, one.outlines.name, to_levels(*one.outlines.attributes.color)});
     }
-    kontur::write_image(path, map.image(), {labels, provenance});
+    kontur::write_image(path, map.image(), labels, provenance);
     return map.notes(names);
 }
 

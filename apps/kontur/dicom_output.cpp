@@ -137,18 +137,17 @@ std::vector<std::string> write_contours_of_all(const fs::path& path, const std::
 }
 
 std::vector<std::string> write_mask(const OutputFile& file, const Segmentation& result,
-                                    const StructureAttributes& attributes, const WriteMaskOptions& options,
-                                    const Work& work) {
+                                    const StructureAttributes& attributes, const LabelName& label, const Work& work) {
     const auto& [path, images, series, provenance] = file;
     if (!is_dicom_name(path)) {
-        WriteMaskOptions with_tags = options;
-        with_tags.segment_tags = tags_of_terms(attributes);
-        kontur::write_mask(path, result.mask, with_tags);
+        LabelName with_tags = label;
+        with_tags.tags = tags_of_terms(attributes);
+        kontur::write_mask(path, result.mask, with_tags, provenance);
         return {};
     }
     DicomSegment segment = fitted_segment(attributes);
-    segment.label = options.segment_name;
-    segment.color = to_rgb8(options.segment_color);
+    segment.label = label.name;
+    segment.color = to_rgb8(label.color);
     const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION,
                                    parameters(result.report, provenance)};
     WriteDicomSegOptions write = seg_options(series, provenance);
@@ -157,12 +156,12 @@ std::vector<std::string> write_mask(const OutputFile& file, const Segmentation& 
 }
 
 std::vector<std::string> write_masks_over_time(const OutputFile& file, std::span<const Mask> masks,
-                                               const StructureAttributes& attributes, const WriteMaskOptions& options,
+                                               const StructureAttributes& attributes, const LabelName& label,
                                                const Work& work) {
     const auto& [path, images, series, provenance] = file;
     DicomSegment segment = fitted_segment(attributes);
-    segment.label = options.segment_name;
-    segment.color = to_rgb8(options.segment_color);
+    segment.label = label.name;
+    segment.color = to_rgb8(label.color);
     WriteDicomSegOptions write = seg_options(series, provenance);
     write.algorithm = {"kontur variational interpolation over time", KONTUR_VERSION, text_of(provenance)};
     const std::vector<DicomSeries> volumes = list_dicom_frames(images.path, images.options.dicom, work);
@@ -174,8 +173,7 @@ std::vector<std::string> write_image(const OutputFile& file, const Image& image,
     const auto& [path, images, series, provenance] = file;
     if (!is_dicom_name(path)) {
         if (has_extension(path, ".seg.nrrd")) check_labels(image, source);
-        kontur::write_image(path, image,
-                            {has_label_names(path) ? label_names(source) : std::vector<LabelName>{}, provenance});
+        kontur::write_image(path, image, has_label_names(path) ? label_names(source) : std::vector<LabelName>{}, provenance);
         return {};
     }
     const std::vector<DicomSegment> segments = segments_of(image, source);

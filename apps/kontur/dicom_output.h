@@ -65,12 +65,11 @@ struct OutputFile {
 
 /// Writes the mask of a fit in the format of the name; in .dcm with the way it was made and what is said of the structure.
 std::vector<std::string> write_mask(const OutputFile& file, const Segmentation& result,
-                                    const StructureAttributes& attributes, const WriteMaskOptions& options,
-                                    const Work& work);
+                                    const StructureAttributes& attributes, const LabelName& label, const Work& work);
 
 /// Writes masks of a fit over time as a DICOM segmentation with one segment, on volumes of a series.
 std::vector<std::string> write_masks_over_time(const OutputFile& file, std::span<const Mask> masks,
-                                               const StructureAttributes& attributes, const WriteMaskOptions& options,
+                                               const StructureAttributes& attributes, const LabelName& label,
                                                const Work& work);
 
 /// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label,

@@ -70,7 +70,7 @@ std::vector<std::string> write_filled(const OutputFile& file, const FilledStruct
     const DicomSegment& segment = filled.structures.segments.front();
     const LabelName name{segment.number, segment.label, to_levels(segment.color.value_or(kStructureColor)),
                          tags_of(filled.structures, 0)};
-    kontur::write_image(path, label_map(filled.structures.masks.front(), segment.number), {{name}, file.provenance});
+    kontur::write_image(path, label_map(filled.structures.masks.front(), segment.number), {name}, file.provenance);
     return {};
 }
 

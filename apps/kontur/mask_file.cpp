@@ -189,7 +189,7 @@ std::vector<std::string> write_mask_file(const fs::path& path, const MaskFile& f
         return in_faults_of(source.path, [&] { return write_structures(output, structures, work); });
     const LabelName name{file.label, segment.label, to_levels(segment.color.value_or(kStructureColor)),
                          tags_of(structures, file.chosen)};
-    kontur::write_image(path, label_map(structures.masks[file.chosen], file.label), {{name}, provenance});
+    kontur::write_image(path, label_map(structures.masks[file.chosen], file.label), {name}, provenance);
     return {};
 }
 

@@ -47,14 +47,14 @@ public:
         const Work work = console_.work(command_.threads);
         const std::string ct = volume.name + "_ct.nii.gz";
         outputs.write(command_.folder / ct, [&](const fs::path& path) {
-            write_image(path, make_phantom_image(volume.grid, command_.options, work), {{}, made_});
+            write_image(path, make_phantom_image(volume.grid, command_.options, work), {}, made_);
         });
         Facts truths = Facts::object();
         for (const Body& body : volume.bodies) {
             work.check();
             const std::string mask = fmt::format("{}_truth_{}.nii.gz", volume.name, body.name());
             outputs.write(command_.folder / mask, [&](const fs::path& path) {
-                write_mask(path, make_truth_mask(body, volume.grid, work), {.provenance = made_});
+                write_mask(path, make_truth_mask(body, volume.grid, work), {}, made_);
             });
             truths[body.name()] = mask;
         }

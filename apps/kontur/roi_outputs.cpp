@@ -85,7 +85,7 @@ std::vector<std::string> write_label_map(const fs::path& path, const RoiResults&
         names.push_back(one.segment.label);
         labels.push_back({one.segment.number, one.segment.label, to_levels(one.segment.color.value_or(kStructureColor))});
     }
-    kontur::write_image(path, result.labels.image(), {labels, provenance});
+    kontur::write_image(path, result.labels.image(), labels, provenance);
     return result.labels.notes(names);
 }
 

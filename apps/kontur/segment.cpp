@@ -124,7 +124,7 @@ void write_uncertainty(const fs::path& path, const Inputs& inputs, const Segment
     const SurfaceEvidence evidence = gather_evidence(result, inputs.contours, work);
     if (is_mesh_name(path))
         write_mesh(path, *result.mesh, {"half_width_mm", half_widths_mm(evidence, result.mesh->points, work)}, provenance);
-    else write_image(path, uncertainty_map(result.mask, evidence, work), {{}, provenance});
+    else write_image(path, uncertainty_map(result.mask, evidence, work), {}, provenance);
 }
 
 std::string crossings_line(const std::vector<Crossing>& crossings) {
@@ -174,7 +174,7 @@ void check_words(const SegmentCommand& command) {
     if (lacks_grid(command)) throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
     if (const std::size_t count = command.spacing_mm.size(); count != 0 && count != 1 && count != 3)
         throw Error(ErrorKind::invalid_input, fmt::format("--spacing-mm has {} numbers; 1 or 3 are needed", count));
-    check_label_value(command.mask.label_value);
+    check_label_value(command.label.label);
     check_utf8(command.name, "the name");
     if (command.date) utc_date();  // which may be set to what is no date
     if (has_several(command)) check_roi_words(command);
@@ -237,34 +237,30 @@ void run(const SegmentCommand& words, Console& console) {
     report.seconds.insert(report.seconds.begin(), seconds.begin(), seconds.end());
     Stopwatch writing(report.seconds);
 
-    WriteMaskOptions mask = command.mask;
-    if (!inputs.contours.name.empty()) mask.segment_name = inputs.contours.name;
-    if (const auto& color = inputs.contours.attributes.color) mask.segment_color = to_levels(*color);
-    mask.provenance = provenance(inputs.contours, inputs.grid, report);
-    for (auto& digest : digests.get()) mask.provenance.push_back(std::move(digest));
-    if (command.date) mask.provenance.emplace_back("date", utc_date());
+    LabelName label = command.label;
+    if (!inputs.contours.name.empty()) label.name = inputs.contours.name;
+    if (const auto& color = inputs.contours.attributes.color) label.color = to_levels(*color);
+    Provenance facts = provenance(inputs.contours, inputs.grid, report);
+    for (auto& digest : digests.get()) facts.push_back(std::move(digest));
+    if (command.date) facts.emplace_back("date", utc_date());
 
     Outputs outputs;
     const auto write = [&](const fs::path& target, const auto& writer) {
         if (!target.empty()) outputs.write(target, writer);
         work.check();
     };
-    const auto dicom = [&](const fs::path& path) {
-        return OutputFile{path, command.image, command.series, mask.provenance};
-    };
+    const auto dicom = [&](const fs::path& path) { return OutputFile{path, command.image, command.series, facts}; };
     write(command.output, [&](const fs::path& path) {
-        for (std::string& note : write_mask(dicom(path), result, inputs.contours.attributes, mask, work))
+        for (std::string& note : write_mask(dicom(path), result, inputs.contours.attributes, label, work))
             report.warnings.push_back(std::move(note));
     });
     write(command.rtstruct,
           [&](const fs::path& path) { write_structure_set(dicom(path), command.holes, inputs, result, work); });
-    write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, mask.provenance); });
-    write(command.picture,
-          [&](const fs::path& path) { write_png(path, picture(command, inputs, result, work), mask.provenance); });
-    write(command.uncertainty,
-          [&](const fs::path& path) { write_uncertainty(path, inputs, result, mask.provenance, work); });
+    write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, facts); });
+    write(command.picture, [&](const fs::path& path) { write_png(path, picture(command, inputs, result, work), facts); });
+    write(command.uncertainty, [&](const fs::path& path) { write_uncertainty(path, inputs, result, facts, work); });
     writing.lap("write");
-    write(command.report, [&](const fs::path& path) { write_file_atomically(path, to_json(report, mask.provenance)); });
+    write(command.report, [&](const fs::path& path) { write_file_atomically(path, to_json(report, facts)); });
     outputs.commit();
 
     for (const std::string& warning : report.warnings) console.warn(warning);

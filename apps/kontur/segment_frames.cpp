@@ -140,32 +140,32 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     result.seconds.insert(result.seconds.begin(), seconds.begin(), seconds.end());
     put_notes_first(notes, result.warnings);
 
-    WriteMaskOptions mask = command.mask;
-    if (!contours.name.empty()) mask.segment_name = contours.name;
-    if (const auto& color = contours.attributes.color) mask.segment_color = to_levels(*color);
-    mask.provenance = provenance(contours, grid, result.moments.front().segmentation.report);
-    for (auto& digest : input_digests(command, work)) mask.provenance.push_back(std::move(digest));
-    if (command.date) mask.provenance.emplace_back("date", utc_date());
+    LabelName label = command.label;
+    if (!contours.name.empty()) label.name = contours.name;
+    if (const auto& color = contours.attributes.color) label.color = to_levels(*color);
+    Provenance facts = provenance(contours, grid, result.moments.front().segmentation.report);
+    for (auto& digest : input_digests(command, work)) facts.push_back(std::move(digest));
+    if (command.date) facts.emplace_back("date", utc_date());
     Outputs outputs;
     const auto write = [&](const fs::path& target, const auto& writer) {
         if (!target.empty()) outputs.write(target, writer);
         work.check();
     };
     write(command.output, [&](const fs::path& path) {
-        if (!is_dicom_name(path)) return write_masks(path, result.masks, frames.step_s, mask);
-        for (std::string& note : write_masks_over_time({path, known, command.series, mask.provenance}, result.masks,
-                                                       contours.attributes, mask, work))
+        if (!is_dicom_name(path)) return write_masks(path, result.masks, frames.step_s, label.label, facts);
+        for (std::string& note :
+             write_masks_over_time({path, known, command.series, facts}, result.masks, contours.attributes, label, work))
             result.warnings.push_back(std::move(note));
     });
     for (std::size_t n = 0; n < meshes.size(); ++n)
-        write(meshes[n], [&](const fs::path& path) { write_mesh(path, result.meshes[n], mask.provenance); });
+        write(meshes[n], [&](const fs::path& path) { write_mesh(path, result.meshes[n], facts); });
     write(command.picture, [&](const fs::path& path) {
-        write_picture_of_frames(path, {command, contours, frames, result}, mask.provenance, work);
+        write_picture_of_frames(path, {command, contours, frames, result}, facts, work);
     });
     write(command.volumes, [&](const fs::path& path) {
         write_file_atomically(path, volumes_csv(result.times, result.volumes, result.moments, frames.step_s));
     });
-    write(command.report, [&](const fs::path& path) { write_file_atomically(path, json_of(result, mask.provenance)); });
+    write(command.report, [&](const fs::path& path) { write_file_atomically(path, json_of(result, facts)); });
     outputs.commit();
     for (const std::string& warning : result.warnings) console.warn(warning);
     console.print(summary_of(command, result));

@@ -165,7 +165,7 @@ void check_roi_words(const SegmentCommand& command) {
     if (!command.volumes.empty()) refuse_one("--volumes");
     if (command.cycle) refuse_one("--cycle");
     if (!command.name.empty()) refuse_one("--name");
-    if (command.mask.label_value != WriteMaskOptions{}.label_value)
+    if (command.label.label != LabelName{}.label)
         refuse("--label-value is for one structure; several ROIs become the labels 1, 2, ...");
     if (command.rois.empty() && !command.all_rois)
         refuse("--rules is for ROIs of an RTSTRUCT; name those that rules need by --roi, or --all-rois");

@@ -125,8 +125,7 @@ void write_outputs(const SlicerCommand& command, const SegmentedModel& model, co
     how.emplace_back("image_sha256", file_sha256(command.reference, work));
     Outputs outputs;
     if (!command.output_mask.empty())
-        outputs.write(command.output_mask,
-                      [&](const fs::path& path) { write_mask(path, result.mask, {.provenance = how}); });
+        outputs.write(command.output_mask, [&](const fs::path& path) { write_mask(path, result.mask, {}, how); });
     if (!command.output_model.empty())
         outputs.write(command.output_model, [&](const fs::path& path) { write_mesh(path, *result.mesh, how); });
     if (!command.return_parameters.empty())

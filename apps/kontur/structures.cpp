@@ -140,9 +140,7 @@ std::vector<LabelName> label_names(const ImageInput& source) {
         return names;
     }
     if (has_extension(source.path, ".nii") || has_extension(source.path, ".nii.gz")) {
-        for (const NamedLabel& label : read_nifti_labels(source.path))
-            names.push_back({label.label, label.name, label.color});
-        return names;
+        return read_nifti_labels(source.path);
     }
     const std::vector<NrrdSegment> segments = nrrd_segments(source.path);
     const std::vector<std::int64_t> numbers = segment_numbers(segments);

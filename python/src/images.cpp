@@ -127,12 +127,12 @@ Mask
         py::arg("path"), py::arg("label") = py::none(), py::kw_only(), kOnNote, KeywordText(keywords));
 
     const auto writing =
-        Keywords<WriteMaskOptions>()
-            .field("label_value", &WriteMaskOptions::label_value, "Value inside, 1 to 65535.")
-            .field("segment_name", &WriteMaskOptions::segment_name, "For .seg.nrrd.")
-            .field("segment_color", &WriteMaskOptions::segment_color, "For .seg.nrrd: red, green, blue from 0 to 1.")
+        Keywords<LabelName>()
+            .field("label_value", &LabelName::label, "Value inside, 1 to 65535.")
+            .field("segment_name", &LabelName::name, "For .seg.nrrd.")
+            .field("segment_color", &LabelName::color, "For .seg.nrrd: red, green, blue from 0 to 1.")
             .field(
-                "segment_tags", &WriteMaskOptions::segment_tags,
+                "segment_tags", &LabelName::tags,
                 "For .seg.nrrd: tags of 3D Slicer, NAME:VALUE with bars between them; 'TerminologyEntry' says what it is.");
     define(
         m, "write_mask", R"(Writes a mask, whole or not at all.
@@ -146,10 +146,10 @@ mask : Mask
 @options
 )",
         [writing](const fs::path& path, const Mask& mask, const py::object& provenance, const py::kwargs& given) {
-            WriteMaskOptions options = writing.parse("write_mask", given);
-            options.provenance = provenance_from(provenance);
+            const LabelName label = writing.parse("write_mask", given);
+            const Provenance facts = provenance_from(provenance);
             const ReleasedLock released;
-            write_mask(path, mask, options);
+            write_mask(path, mask, label, facts);
         },
         py::arg("path"), py::arg("mask"), py::kw_only(), py::arg("provenance") = py::none(), KeywordText(writing));
     define(
@@ -168,13 +168,13 @@ label_tags : dict of int to str, optional
 )",
         [](const fs::path& path, const Image& image, const py::object& provenance,
            const std::map<std::int64_t, std::string>& label_names, const std::map<std::int64_t, std::string>& label_tags) {
-            WriteImageOptions options;
-            options.provenance = provenance_from(provenance);
-            for (const auto& [label, name] : label_names) options.names.push_back({label, name});
-            for (LabelName& one : options.names)
+            const Provenance facts = provenance_from(provenance);
+            std::vector<LabelName> names;
+            for (const auto& [label, name] : label_names) names.push_back({label, name});
+            for (LabelName& one : names)
                 if (const auto tags = label_tags.find(one.label); tags != label_tags.end()) one.tags = tags->second;
             const ReleasedLock released;
-            write_image(path, image, options);
+            write_image(path, image, names, facts);
         },
         py::arg("path"), py::arg("image"), py::kw_only(), py::arg("provenance") = py::none(),
         py::arg("label_names") = py::dict(), py::arg("label_tags") = py::dict());

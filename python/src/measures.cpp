@@ -51,11 +51,9 @@ Examples
 [(True, 2.0), (False, 2.0)]
 )",
         [](const Mask& a, const Mask& b, double saddle, int threads, const py::object& progress, const py::object& stop) {
-            return run({progress, stop, threads},
-                       [&](const Work& work) { return differences(a, b, {.saddle = saddle}, work); });
+            return run({progress, stop, threads}, [&](const Work& work) { return differences(a, b, saddle, work); });
         },
-        py::arg("a"), py::arg("b"), py::kw_only(), py::arg("saddle") = DifferencesOptions{}.saddle, kThreads, kProgress,
-        kStop);
+        py::arg("a"), py::arg("b"), py::kw_only(), py::arg("saddle") = kSaddle, kThreads, kProgress, kStop);
 }
 
 }  // namespace

@@ -74,9 +74,9 @@ TEST_P(ImageFormats, AnIndependentReaderReadsWhatIsWritten) {
     int number = 0;
     const auto write = [&](const Image& image) {
         const fs::path path = next_path();
-        WriteImageOptions options;
-        if (number++ % 3 == 0) options.provenance = {{"made_by", "kontur"}};
-        write_image(path, image, options);
+        Provenance facts;
+        if (number++ % 3 == 0) facts = {{"made_by", "kontur"}};
+        write_image(path, image, {}, facts);
         // The tolerance is that of the numbers in the file, which read_grid sees as well.
         Image stored = image;
         stored.grid = read_grid(path);

@@ -40,9 +40,7 @@ TEST_P(ImageFiles, MaskComesBack) {
 
 TEST_P(ImageFiles, LabelValueChoosesTheNarrowestSamples) {
     for (const std::int64_t value : {1, 7, 255, 256, 65535}) {
-        WriteMaskOptions options;
-        options.label_value = value;
-        write_mask(path(), mask, options);
+        write_mask(path(), mask, {.label = value});
         const Image image = read_image(path());
         EXPECT_EQ(std::holds_alternative<std::vector<std::uint8_t>>(image.samples), value <= 255);
         EXPECT_EQ(count_labels(image), (Labels{{value, 12}}));
@@ -66,10 +64,8 @@ TEST_P(ImageFiles, ImageComesBack) {
 TEST_P(ImageFiles, FailureLeavesNothing) {
     fs::create_directory(folder / "file");
     for (const std::int64_t value : {0, -1, 65536}) {
-        WriteMaskOptions options;
-        options.label_value = value;
         expect_error(ErrorKind::invalid_input, "label value " + std::to_string(value),
-                     [&] { write_mask(path(), mask, options); });
+                     [&] { write_mask(path(), mask, {.label = value}); });
     }
     Mask empty;
     EXPECT_THROW(write_mask(path(), empty), Error);

@@ -298,7 +298,7 @@ TEST(Nifti, MasksOfSeveralFramesComeBackEachWithTheTimeBetweenThem) {
         mask.values.assign(static_cast<std::size_t>(mask.grid.voxel_count()), 0);
         mask.values[n] = 1;
     }
-    write_masks(folder / "a.nii.gz", masks, 0.041, {.label_value = 7});
+    write_masks(folder / "a.nii.gz", masks, 0.041, 7);
     const ImageFrames frames = read_image_frames(folder / "a.nii.gz");
     EXPECT_EQ(frames.count, 3);
     EXPECT_NEAR(frames.step_s.value_or(0), 0.041, 1e-8);

@@ -38,7 +38,7 @@ void write_sample(const fs::path& path, const Provenance& made) {
     if (extension == ".json") write_contours(path, {}, made);
     else if (extension == ".ply" || extension == ".obj" || extension == ".stl" || extension == ".vtk" || extension == ".vtp")
         write_mesh(path, kMesh, made);
-    else write_mask(path, kMask, {.provenance = made});
+    else write_mask(path, kMask, {}, made);
 }
 
 TEST(ReadProvenance, FindsWhatTheWritersWrote) {

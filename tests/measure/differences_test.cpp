@@ -89,7 +89,7 @@ TEST(Differences, AreAllVoxelsAndTheirDistancesAreExact) {
                 });
             };
             const Mask a = wavy(2), b = wavy(-2);
-            const std::vector<Difference> found = differences(a, b, {}, {.threads = 2});
+            const std::vector<Difference> found = differences(a, b, kSaddle, {.threads = 2});
             std::int64_t alone[2]{};
             for (std::size_t n = 0; n < a.values.size(); ++n) {
                 alone[0] += a.values[n] && !b.values[n];
@@ -101,9 +101,9 @@ TEST(Differences, AreAllVoxelsAndTheirDistancesAreExact) {
             for (const Difference& one : found)
                 EXPECT_NEAR(one.distance_mm, distance_to(one.at, one.in_first ? b : a), 1e-9);
             for (std::size_t n = 1; n < found.size(); ++n) EXPECT_GE(found[n - 1].distance_mm, found[n].distance_mm);
-            const std::vector<Difference> coarser = differences(a, b, {.saddle = 0.25});
+            const std::vector<Difference> coarser = differences(a, b, 0.25);
             EXPECT_LE(coarser.size(), found.size());
-            EXPECT_GE(differences(a, b, {.saddle = 1}).size(), found.size());
+            EXPECT_GE(differences(a, b, 1).size(), found.size());
         }
     }
 }
@@ -115,7 +115,7 @@ TEST(Differences, OfEqualMasksAndOfAnEmptyOneThereAreNone) {
     EXPECT_TRUE(differences(one, one).empty());
     EXPECT_TRUE(differences(one, empty).empty());
     EXPECT_TRUE(differences(empty, one).empty());
-    EXPECT_KONTUR_ERROR(differences(one, one, {.saddle = 0}), ErrorKind::invalid_input, "the saddle is 0");
+    EXPECT_KONTUR_ERROR(differences(one, one, 0), ErrorKind::invalid_input, "the saddle is 0");
     Mask other = one;
     other.grid.index_to_mm.translation.x += 1;
     EXPECT_KONTUR_ERROR(differences(one, other), ErrorKind::invalid_input, "the masks lie on different grids");

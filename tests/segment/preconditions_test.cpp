@@ -461,21 +461,17 @@ TEST(Preconditions, OfWriting) {
         rows.push_back({name, [=] { write_mask(path, short_mask()); }, "values for a grid"});
         rows.push_back({name, [=] { write_image(path, short_image()); }, "values for a grid"});
         for (const std::int64_t label : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{65536}})
-            rows.push_back({name, [=] { write_mask(path, segmentation().mask, {.label_value = label}); }, "label value"});
+            rows.push_back({name, [=] { write_mask(path, segmentation().mask, {.label = label}); }, "label value"});
     }
     for (const double part : {-0.1, 1.1, kNan}) {
         const auto path = folder.path() / "a.seg.nrrd";
         rows.push_back({"colour",
                         [=] {
-                            write_mask(path, segmentation().mask, {.segment_color = {part, 0, 0}});
+                            write_mask(path, segmentation().mask, {.color = {part, 0, 0}});
                         },
                         "red of segment"});
         const Image labels{grid(), segmentation().mask.values};
-        rows.push_back({"colour",
-                        [=] {
-                            write_image(path, labels, {.names = {{1, "a", {0, 0, part}}}});
-                        },
-                        "blue of segment 'a'"});
+        rows.push_back({"colour", [=] { write_image(path, labels, {{1, "a", {0, 0, part}}}); }, "blue of segment 'a'"});
     }
     const auto mesh = folder.path() / "a.stl", picture = folder.path() / "a.png";
     rows.push_back({"mesh", [=] { write_mesh(mesh, broken_mesh()); }, "mesh"});

@@ -196,7 +196,7 @@ ImportContent read_contours_of(const fs::path& path, const Upload& request) {
 std::map<std::int64_t, std::map<std::int64_t, MaskOrigin>> named_layers(const fs::path& path) {
     std::map<std::int64_t, std::map<std::int64_t, MaskOrigin>> layers;
     if (path.extension() == ".nii" || path.extension() == ".gz")
-        for (const NamedLabel& label : read_nifti_labels(path))
+        for (const LabelName& label : read_nifti_labels(path))
             layers[0][label.label] = {label.name, StructureAttributes{.color = to_rgb8(label.color)}};
     if (path.extension() == ".nrrd")
         for (const NrrdSegment& segment : read_nrrd_segments(path)) {

@@ -91,13 +91,12 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
     const std::vector<std::int64_t> values = label_values_of(all);
     for (std::uint16_t& label : labels)
         if (label != 0) label = static_cast<std::uint16_t>(values[label - 1u]);
-    WriteImageOptions options;
-    options.provenance = together(all, values);
+    std::vector<LabelName> names;
     for (std::size_t n = 0; n < all.size(); ++n)
-        options.names.push_back({values[n], all[n].structure.name, rgb(all[n].structure.color)});
+        names.push_back({values[n], all[n].structure.name, rgb(all[n].structure.color)});
     Image image{all.front().segmentation.mask.grid, labels};
     if (std::ranges::max(values) <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
-    write_image(path, image, options);
+    write_image(path, image, names, together(all, values));
     std::vector<std::string> notes;
     for (const auto& [pair, voxels] : shared)
         notes.push_back(fmt::format("{} in {} and in {}: in the label map {} to {}, the smaller one",

@@ -62,7 +62,8 @@ std::string comparison_reply(SessionState& s, const Compared& compared, const St
         reply["percentile_95_mm"] = found.surface->hausdorff95_mm;
         reply["largest_mm"] = found.surface->hausdorff_mm;
     }
-    reply["differences"] = to_json(differences(fit_a->segmentation.mask, fit_b->segmentation.mask, {}, line.work(stop)));
+    reply["differences"] =
+        to_json(differences(fit_a->segmentation.mask, fit_b->segmentation.mask, kSaddle, line.work(stop)));
     return to_text(reply);
 }
 

@@ -72,12 +72,9 @@ std::string file_name(const SessionState& s, const std::string& of, const std::s
 
 /// Of a mask to be corrected its own voxels, as `kontur correct` writes them.
 void write_mask_file(const fs::path& path, const FittedStructure& one) {
-    WriteMaskOptions options;
-    options.segment_name = one.structure.name;
-    options.segment_color = rgb(one.structure.color);
-    options.segment_tags = tags_of_terms(one.set.attributes);
-    options.provenance = provenance_of(one);
-    write_mask(path, one.corrected ? one.corrected->mask : one.segmentation.mask, options);
+    const LabelName label{
+        .name = one.structure.name, .color = rgb(one.structure.color), .tags = tags_of_terms(one.set.attributes)};
+    write_mask(path, one.corrected ? one.corrected->mask : one.segmentation.mask, label, provenance_of(one));
 }
 
 void write_mesh_file(const fs::path& path, const FittedStructure& one) {
@@ -203,9 +200,7 @@ void write_motion(SessionState& s, const State& now, const ExportChoice& choice,
                                 choice.name));
     const auto motion = s.fits.motion(now, chosen.id, work);
     if (choice.name == kVolumes) return write_file_atomically(path, motion->volumes_csv(s.image.frame_step_s));
-    WriteMaskOptions options;
-    options.provenance = motion->provenance();
-    write_masks(path, motion->masks(), s.image.frame_step_s, options);
+    write_masks(path, motion->masks(), s.image.frame_step_s, 1, motion->provenance());
 }
 
 /// With their frames where the image has several, and the cycle.

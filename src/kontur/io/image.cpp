@@ -198,12 +198,10 @@ std::vector<NrrdSegment> one_segment_each(const std::map<std::int64_t, std::int6
 }
 
 /// Those that the image has.
-std::vector<NamedLabel> named_labels(const Image& image, const std::vector<LabelName>& names) {
+std::vector<LabelName> names_of_labels(const Image& image, std::vector<LabelName> names) {
     const std::map<std::int64_t, std::int64_t> counts = count_labels(image);
-    std::vector<NamedLabel> labels;
-    for (const LabelName& name : names)
-        if (counts.contains(name.label)) labels.push_back({name.label, name.name, name.color});
-    return labels;
+    std::erase_if(names, [&](const LabelName& name) { return !counts.contains(name.label); });
+    return names;
 }
 
 /// `segments` is asked for only where the format has any.
@@ -350,16 +348,14 @@ Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const Re
     return select_mask(image, label, path.string());
 }
 
-void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& options) {
+void write_mask(const fs::path& path, const Mask& mask, const LabelName& label, const Provenance& provenance) {
     check_mask(mask);
-    const std::int64_t value = options.label_value;
+    const std::int64_t value = label.label;
     check_label_value(value);
-    check_color(options.segment_color, options.segment_name);
-    const auto segment = [&] {
-        return std::vector{NrrdSegment{options.segment_name, options.segment_color, value, 0, options.segment_tags}};
-    };
+    check_color(label.color, label.name);
+    const auto segment = [&] { return std::vector{NrrdSegment{label.name, label.color, value, 0, label.tags}}; };
     const auto write_view = [&](ImageView view) {
-        view.provenance = options.provenance;
+        view.provenance = provenance;
         write(path, view, segment);
     };
     const bool has_zeros_and_ones = std::ranges::all_of(mask.values, [](std::uint8_t v) { return v <= 1; });
@@ -368,14 +364,14 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
     else write_view(Image{mask.grid, with_value_inside<std::uint16_t>(mask, value)});
 }
 
-void write_image(const fs::path& path, const Image& image, const WriteImageOptions& options) {
+void write_image(const fs::path& path, const Image& image, const std::vector<LabelName>& names,
+                 const Provenance& provenance) {
     check_image(image);
-    for (const LabelName& name : options.names) check_color(name.color, name.name);
+    for (const LabelName& name : names) check_color(name.color, name.name);
     const auto write_view = [&](ImageView view) {
-        view.provenance = options.provenance;
-        if (!options.names.empty() && rule_for(path).format == Format::nifti)
-            view.labels = named_labels(image, options.names);
-        write(path, view, [&] { return one_segment_each(labels_of(image, path), options.names); });
+        view.provenance = provenance;
+        if (!names.empty() && rule_for(path).format == Format::nifti) view.labels = names_of_labels(image, names);
+        write(path, view, [&] { return one_segment_each(labels_of(image, path), names); });
     };
     const bool has_floats = std::holds_alternative<std::vector<float>>(image.samples);
     if (has_floats && rule_for(path).format == Format::seg_nrrd) write_view(with_integers(image, path));

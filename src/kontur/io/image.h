@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/io/images/label_name.h"
 #include "kontur/io/images/read_image_options.h"
 #include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
@@ -36,37 +35,19 @@ Image read_label_image(const std::filesystem::path& path, const ReadImageOptions
 Mask read_mask(const std::filesystem::path& path, std::optional<std::int64_t> label = {},
                const ReadImageOptions& options = {}, const Work& work = {});
 
-struct WriteMaskOptions {
-    std::int64_t label_value = 1;            ///< value inside, 1 to 65535; 8-bit samples up to 255, else 16-bit ones
-    std::string segment_name = "Segment_1";  ///< for .seg.nrrd
-    std::array<double, 3> segment_color{0.9, 0.7, 0.3};  ///< for .seg.nrrd; red, green, blue from 0 to 1
-    std::string segment_tags{};                          ///< for .seg.nrrd, as LabelName's
-    /// Goes into the text fields: NRRD's key/value pairs; a comment extension of NIfTI and, shortened, its description;
-    /// MetaImage's comment, shortened; a tag behind MGH's voxels.
-    Provenance provenance{};
-};
-
-/// What a .seg.nrrd says of a label; name and colour go into the table of labels of a NIfTI file, too.
-struct LabelName {
-    std::int64_t label = 1;
-    std::string name;
-    std::array<double, 3> color{0.9, 0.7, 0.3};  ///< red, green, blue from 0 to 1
-    std::string tags{};  ///< of 3D Slicer, NAME:VALUE with bars between them; "TerminologyEntry" says what it is
-};
-
-struct WriteImageOptions {
-    std::vector<LabelName> names{};  ///< for .seg.nrrd and NIfTI
-    Provenance provenance{};         ///< as WriteMaskOptions'
-};
-
 /// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz, .mgh), whole or not at all.
+/// Inside is the label's value, 1 to 65535: 8-bit samples up to 255, else 16-bit ones; a .seg.nrrd says the rest of it, too.
+/// Provenance goes into the text fields: NRRD's key/value pairs; a comment extension of NIfTI and, shortened, its
+/// description; MetaImage's comment, shortened; a tag behind MGH's voxels.
 /// Throws as check_mask and check_label_value do, and Error(invalid_input) for a colour outside of its range.
-void write_mask(const std::filesystem::path& path, const Mask& mask, const WriteMaskOptions& options = {});
+void write_mask(const std::filesystem::path& path, const Mask& mask, const LabelName& label = {},
+                const Provenance& provenance = {});
 
 /// Writes an image with its sample type, likewise; as .seg.nrrd a label map with one segment for each label, named as in
 /// `names` where these know the label; whole numbers that are stored as floats become integers there. Throws
 /// Error(invalid_input) for a .seg.nrrd of what is no label map, Error(unsupported) for labels beyond 32 bits in it.
-void write_image(const std::filesystem::path& path, const Image& image, const WriteImageOptions& options = {});
+void write_image(const std::filesystem::path& path, const Image& image, const std::vector<LabelName>& names = {},
+                 const Provenance& provenance = {});
 
 /// Throws Error(unsupported), as the writers do, for a name whose extension is not among theirs: so that a long computation
 /// is refused before it starts.

@@ -159,10 +159,10 @@ void check_frames_name(const fs::path& path) {
                     "masks of several frames are written as .nii or .nii.gz, not as " + path.filename().string());
 }
 
-void write_masks(const fs::path& path, std::span<const Mask> masks, std::optional<double> step_s,
-                 const WriteMaskOptions& options) {
+void write_masks(const fs::path& path, std::span<const Mask> masks, std::optional<double> step_s, std::int64_t label_value,
+                 const Provenance& provenance) {
     check_frames_name(path);
-    check_label_value(options.label_value);
+    check_label_value(label_value);
     if (masks.empty()) throw Error(ErrorKind::invalid_input, "there is no mask to write; at least 1 is needed");
     for (std::size_t n = 0; n < masks.size(); ++n) {
         check_mask(masks[n], "the mask of frame " + std::to_string(n + 1));
@@ -176,11 +176,11 @@ void write_masks(const fs::path& path, std::span<const Mask> masks, std::optiona
         for (const Mask& mask : masks)
             for (const std::uint8_t v : mask.values) all.push_back(v ? inside : Value{0});
         ImageView view(masks.front().grid, std::span<const Value>(all));
-        view.provenance = options.provenance;
+        view.provenance = provenance;
         write_nifti(path, view, {static_cast<std::int64_t>(masks.size()), step_s});
     };
-    if (options.label_value <= 255) write(static_cast<std::uint8_t>(options.label_value));
-    else write(static_cast<std::uint16_t>(options.label_value));
+    if (label_value <= 255) write(static_cast<std::uint8_t>(label_value));
+    else write(static_cast<std::uint16_t>(label_value));
 }
 
 }  // namespace kontur

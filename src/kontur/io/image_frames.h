@@ -36,10 +36,10 @@ ImageSource source_of_frame(const ImageSource& image, const ImageFrames& frames,
 /// they have different grids, or one holds several frames. Internal to io.
 std::vector<std::filesystem::path> checked_frame_files(const std::filesystem::path& folder, const ReadImageOptions& options);
 
-/// Writes masks of one grid as the frames of one file: .nii or .nii.gz. Throws Error(unsupported) for another name, and
-/// Error(invalid_input) for no mask, masks of different grids and as write_mask does.
+/// Writes masks of one grid as the frames of one file: .nii or .nii.gz, with this value inside. Throws Error(unsupported)
+/// for another name, and Error(invalid_input) for no mask, masks of different grids and as write_mask does.
 void write_masks(const std::filesystem::path& path, std::span<const Mask> masks, std::optional<double> step_s = {},
-                 const WriteMaskOptions& options = {});
+                 std::int64_t label_value = 1, const Provenance& provenance = {});
 
 /// Throws Error(unsupported), as write_masks does, for a name of a format that holds one frame.
 void check_frames_name(const std::filesystem::path& path);

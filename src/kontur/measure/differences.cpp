@@ -146,15 +146,14 @@ bool is_empty(const Mask& mask) {
 
 }  // namespace
 
-std::vector<Difference> differences(const Mask& a, const Mask& b, const DifferencesOptions& options, const Work& work) {
+std::vector<Difference> differences(const Mask& a, const Mask& b, double saddle, const Work& work) {
     check_comparable(a, b);
-    if (!(options.saddle > 0 && options.saddle <= 1))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the saddle is {}; it must be more than 0 and at most 1", options.saddle));
+    if (!(saddle > 0 && saddle <= 1))
+        throw Error(ErrorKind::invalid_input, fmt::format("the saddle is {}; it must be more than 0 and at most 1", saddle));
     if (is_empty(a) || is_empty(b)) return {};
-    std::vector<Difference> found = bulges_of(a, b, options.saddle, true, work);
+    std::vector<Difference> found = bulges_of(a, b, saddle, true, work);
     work.check();
-    for (const Difference& one : bulges_of({a.grid, b.values}, a, options.saddle, false, work)) found.push_back(one);
+    for (const Difference& one : bulges_of({a.grid, b.values}, a, saddle, false, work)) found.push_back(one);
     std::ranges::stable_sort(found, [](const Difference& x, const Difference& y) {
         return x.distance_mm != y.distance_mm ? x.distance_mm > y.distance_mm : x.volume_ml > y.volume_ml;
     });

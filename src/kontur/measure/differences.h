@@ -17,18 +17,15 @@ struct Difference {
     bool in_first = false;  ///< it is the first mask that has it
 };
 
-struct DifferencesOptions {
-    /// Two bulges of one connected piece are two differences where the way from one to the other comes nearer to the other
-    /// mask than this share of the lower one's height. Half as much tells few bulges on a thick layer apart, 1 each voxel
-    /// that lies farther off than its neighbours.
-    double saddle = 0.5;
-};
+/// Two bulges of one connected piece are two differences where the way from one to the other comes nearer to the other mask
+/// than this share of the lower one's height. Half as much tells few bulges on a thick layer apart, 1 each voxel that lies
+/// farther off than its neighbours.
+inline constexpr double kSaddle = 0.5;
 
 /// The places where two masks of one grid differ, the farthest first, of equal ones the larger. Together they are all
 /// voxels that one mask alone has. None where a mask is empty: there is nothing then that the other could lie away from.
 /// Throws Error(invalid_input) as `compare`, and for a saddle out of (0, 1]. Exact on anisotropic, oblique and sheared
 /// grids; the same for any number of threads.
-std::vector<Difference> differences(const Mask& a, const Mask& b, const DifferencesOptions& options = {},
-                                    const Work& work = {});
+std::vector<Difference> differences(const Mask& a, const Mask& b, double saddle = kSaddle, const Work& work = {});
 
 }  // namespace kontur

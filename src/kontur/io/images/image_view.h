@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <variant>
 #include <vector>
 
 #include "kontur/io/bytes/deflate.h"
+#include "kontur/io/images/label_name.h"
 #include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
-
-/// What a file says of a label.
-struct NamedLabel {
-    std::int64_t label = 0;
-    std::string name;
-    std::array<double, 3> color{0.9, 0.7, 0.3};  ///< red, green, blue from 0 to 1
-};
 
 /// A borrowed image or mask, for writers. The source must outlive it.
 struct ImageView {
@@ -29,8 +21,8 @@ struct ImageView {
                                  std::span<const std::uint16_t>, std::span<const std::int32_t>, std::span<const float>>;
     const Grid& grid;
     Samples samples;
-    Provenance provenance{};           ///< for the format's text fields
-    std::vector<NamedLabel> labels{};  ///< for a format with room for a table of them
+    Provenance provenance{};          ///< for the format's text fields
+    std::vector<LabelName> labels{};  ///< for a format with room for a table of them
 
     ImageView(const Grid& its_grid, Samples its_samples) : grid(its_grid), samples(its_samples) {}
     ImageView(const Mask& mask) : grid(mask.grid), samples(std::span(mask.values)) {}

@@ -64,9 +64,9 @@ std::string_view attribute(std::string_view tag, std::string_view key) {
     return tag.substr(0, tag.find('"'));
 }
 
-std::optional<NamedLabel> label_in(std::string_view tag, std::string_view content) {
+std::optional<LabelName> label_in(std::string_view tag, std::string_view content) {
     const std::optional<std::int64_t> key = parse_integer(attribute(tag, "Key"));
-    NamedLabel label{key.value_or(0), name_in(content)};
+    LabelName label{key.value_or(0), name_in(content)};
     if (label.label == 0 || label.name.empty()) return std::nullopt;
     constexpr std::array kLevels{"Red", "Green", "Blue"};
     for (std::size_t n = 0; n < kLevels.size(); ++n)
@@ -74,14 +74,14 @@ std::optional<NamedLabel> label_in(std::string_view tag, std::string_view conten
     return label;
 }
 
-std::vector<NamedLabel> labels_in(std::string_view table) {
+std::vector<LabelName> labels_in(std::string_view table) {
     constexpr std::string_view kBegin = "<Label ", kEnd = "</Label>";
-    std::vector<NamedLabel> labels;
+    std::vector<LabelName> labels;
     for (std::size_t at = table.find(kBegin); at != std::string_view::npos; at = table.find(kBegin, at + 1)) {
         const std::size_t tag_end = table.find('>', at), end = table.find(kEnd, at);
         if (tag_end == std::string_view::npos || end == std::string_view::npos || end < tag_end) continue;
         const auto label = label_in(table.substr(at, tag_end - at), table.substr(tag_end + 1, end - tag_end - 1));
-        const auto is_same = [&](const NamedLabel& other) { return label && other.label == label->label; };
+        const auto is_same = [&](const LabelName& other) { return label && other.label == label->label; };
         if (label && std::ranges::none_of(labels, is_same)) labels.push_back(*label);
     }
     return labels;
@@ -124,7 +124,7 @@ std::string to_bytes(const NiftiExtension& extension) {
     return bytes;
 }
 
-std::vector<NamedLabel> read_nifti_labels(const fs::path& path) {
+std::vector<LabelName> read_nifti_labels(const fs::path& path) {
     constexpr std::string_view kBegin = "<LabelTable>", kEnd = "</LabelTable>";
     for (const NiftiExtension& extension : read_nifti_extensions(path)) {
         const std::string_view text = extension.content;
@@ -136,10 +136,10 @@ std::vector<NamedLabel> read_nifti_labels(const fs::path& path) {
     return {};
 }
 
-NiftiExtension label_table(const std::vector<NamedLabel>& labels) {
+NiftiExtension label_table(const std::vector<LabelName>& labels) {
     std::string text =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?><CaretExtension><VolumeInformation Index=\"0\"><LabelTable>";
-    for (const NamedLabel& label : labels) {
+    for (const LabelName& label : labels) {
         std::string name = label.name;
         for (std::size_t at = 0; (at = name.find(kCdataEnd)) != std::string::npos;) name.replace(at, 3, "]] >");
         text += fmt::format("<Label Key=\"{}\" Red=\"{:g}\" Green=\"{:g}\" Blue=\"{:g}\" Alpha=\"1\">{}{}{}</Label>",

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kontur/io/images/image_view.h"
+#include "kontur/io/images/label_name.h"
 
 namespace kontur {
 
@@ -26,9 +26,9 @@ std::string to_bytes(const NiftiExtension& extension);
 
 /// The names in the first label table (the XML of Caret, which TotalSegmentator writes, too), but that of label 0; none
 /// where there is no table. Labels without a whole number or a name are passed over, and so are repeated ones.
-std::vector<NamedLabel> read_nifti_labels(const std::filesystem::path& path);
+std::vector<LabelName> read_nifti_labels(const std::filesystem::path& path);
 
 /// A label table that `read_nifti_labels` reads.
-NiftiExtension label_table(const std::vector<NamedLabel>& labels);
+NiftiExtension label_table(const std::vector<LabelName>& labels);
 
 }  // namespace kontur

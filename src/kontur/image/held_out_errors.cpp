@@ -13,6 +13,7 @@ namespace kontur {
 namespace {
 
 constexpr Rise kSureGain{0, 1};       // standard errors of the mean gain
+constexpr Rise kSureShare{1, 1.15};   // standard errors of the share that is true
 constexpr std::size_t kNear = 40;     // held-out points that speak for a place
 constexpr double kLeastImage = 0.25;  // voxels: no image is better known than this
 constexpr Rise kSeen{kLeastImage, 2 * kLeastImage};
@@ -63,7 +64,7 @@ void HeldOutErrors::add(const HeldOutPoint& point, double weight, OffsetTruth& s
 }
 
 double HeldOutErrors::weight(const Rise& enough) const {
-    return sure_share(truth_) > 0 ? enough.at(error_reduction()) * weight_of_planes() : 0;
+    return kSureShare.at(in_errors(truth_.share(), error_of_share_)) * enough.at(error_reduction()) * weight_of_planes();
 }
 
 double HeldOutErrors::visibility(double edge_mm) const { return kSeen.at(without_mm_ / edge_mm); }
@@ -104,9 +105,11 @@ double HeldOutErrors::error_of_share() const {
     return std::sqrt(squares * (count - 1) / count);
 }
 
-/// The share of what the image tells that is true, surely.
+/// The share of what the image tells that is true, less what chance makes of it (the positive part of James and Stein 1961).
 double HeldOutErrors::sure_share(const OffsetTruth& truth) const {
-    return std::clamp(truth.share() - error_of_share_, 0.0, 1.0);
+    const double share = truth.share();
+    if (share <= error_of_share_) return 0;
+    return std::min(share - error_of_share_ * error_of_share_ / share, 1.0);
 }
 
 Beliefs HeldOutErrors::beliefs(double weight) const {

@@ -48,7 +48,7 @@ double tube_depth(const Vec3& p) {
     return std::abs(p.z) > 45 ? -5.0 : 4 + std::sin(p.z / 6) - norm(p - axis);
 }
 
-// Lines that waver contradict the image beside them. The contours change then, unless they are kept where they did.
+// Lines that waver contradict the image beside them. The contours would change then, were they not kept.
 TEST(WalkSurface, IsFollowedBesideAnUnsteadyHand) {
     ContourSet contours = cut({make_plane({0, 0, -40.25}, {0, 0, 1}), make_plane({0, 0, -0.25}, {0, 0, 1}),
                                make_plane({0, 0, 39.75}, {0, 0, 1}), make_plane({0.3, 0, 0}, {1, 0, 0})},

@@ -19,6 +19,7 @@ constexpr std::size_t kMostAbsences = 450, kMostAnchors = 900;
 // Of f that counts, mm over mm. Of ten drawings Dice .8973; half as much at least .8972, twice .8989.
 constexpr double kLeastSlope = 0.4;
 constexpr double kAnchorNoise = 0.2, kMostAnchorValue = 1.5;  // cells
+constexpr double kLineSpacing = 0.7, kLineNoise = 0.005;      // cells: along the drawn lines nothing changes
 
 class WalkConstraints {
 public:
@@ -158,6 +159,14 @@ void append(const std::vector<PointConstraint>& more, std::vector<PointConstrain
     data.insert(data.end(), more.begin(), more.end());
 }
 
+std::vector<PointConstraint> drawn_lines(const ContourSet& contours, double edge_mm) {
+    std::vector<PointConstraint> lines;
+    for (const Vec3& p :
+         along_contours(contours, std::max(kLineSpacing * edge_mm, length_mm(contours) / kMostContourPoints)))
+        lines.push_back({.position = p, .value = 0, .noise_mm = kLineNoise * edge_mm});
+    return lines;
+}
+
 /// Far from the contours f rises by less than the way. What is told of it rises alike, or f would have to bend and change
 /// beside the contours.
 void as_steep_as(const ImplicitFunction& function, std::vector<PointConstraint>& depths, const Work& work) {
@@ -183,6 +192,7 @@ ImageData walk_data(const WalkDepths& walk, const FitDepths& alone, const Drawin
     data.changes =
         changes_outside(alone.fitted, with_normals(alone.fitted.function, spread(surface, kMostAnchors, frame), work),
                         drawing.contours, data.change_mm);
+    append(drawn_lines(drawing.contours, walk.cells.edge_mm()), data.changes);
     return data;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "kontur/image/refit.h"
 #include "kontur/image/walk_data.h"
@@ -15,27 +14,8 @@ namespace {
 constexpr double kMostOnContours = 0.05;  // voxels: f changes no more at drawn points
 constexpr double kMostStray = 2.5;        // cells: no farther from the walk's surface
 
-/// From the second attempt on the contours are kept where they changed before; then less is told near them, and less
-/// exactly.
-constexpr WalkDataOptions kAttempts[] = {{}, {}, {.off_contours = 2, .noise = 4}};
-// Cells; of ten drawings Dice .8973 as it is, half of them .8973 and .8978, twice as much .8973 and .8966.
-constexpr double kKeptNoise = 0.005, kKeptSpacing = 0.7;
-
-/// The places of drawn lines where a function changed another: nothing is to change there.
-std::vector<PointConstraint> changed_places(const ImplicitFunction& before, const ImplicitFunction& after,
-                                            const ContourSet& contours, const WalkGround& ground, const Work& work) {
-    const double edge = ground.cells.edge_mm();
-    const std::vector<Vec3> places =
-        along_contours(contours, std::max(kKeptSpacing * edge, length_mm(contours) / kMostContourPoints));
-    std::vector<double> old(places.size()), now(places.size());
-    before.values(places, old, work);
-    after.values(places, now, work);
-    std::vector<PointConstraint> changed;
-    for (std::size_t n = 0; n < places.size(); ++n)
-        if (std::abs(now[n] - old[n]) > kMostOnContours * ground.voxel_mm)
-            changed.push_back({.position = places[n], .value = 0, .noise_mm = kKeptNoise * edge});
-    return changed;
-}
+/// The second tells less near the contours, and less exactly.
+constexpr WalkDataOptions kAttempts[] = {{}, {.off_contours = 2, .noise = 4}};
 
 /// Whether a surface is farther from the walk's than it may be.
 bool leaves(const VoxelWalk& walk, const CellDepths& depths, const std::vector<float>& walk_mm, const ImageCells& cells) {
@@ -97,20 +77,15 @@ std::optional<ImageFit> walk_surface(const WalkGround& ground, const FittedDrawi
     const VoxelWalk walk = walk_voxels(cells, first, walking, work);
     const Depths depths = depths_below(walk, cells);
     Refit refit(prepared, fitted, options.fit, cells.edge_mm());
-    std::vector<PointConstraint> kept;
     for (const WalkDataOptions& attempt : kAttempts) {
         work.check();
-        ImageData data = walk_data({walk, depths, cells}, {fitted, alone}, drawing, attempt, work);
-        data.changes.insert(data.changes.end(), kept.begin(), kept.end());
+        const ImageData data = walk_data({walk, depths, cells}, {fitted, alone}, drawing, attempt, work);
         FittedFunction through = refit.with(data, work);
         const double on_contours = largest_change(fitted.function, through.function, drawing.contours, work);
         const CellDepths now = cell_depths(cells, through.function, drawing.contours, work, Doubts::left);
         if (on_contours > kMostOnContours * ground.voxel_mm || leaves(walk, now, depths.depth_mm, cells) ||
-            comes_through_planes({through.function, now}, {fitted.function, alone}, ground, work)) {
-            std::ranges::copy(changed_places(fitted.function, through.function, drawing.contours, ground, work),
-                              std::back_inserter(kept));
+            comes_through_planes({through.function, now}, {fitted.function, alone}, ground, work))
             continue;
-        }
         const SurfaceCells surface = surface_cells(now, alone, walk, cells);
         std::vector<Vec3> places = spread(surface.places, options.samples, frame_of(drawing.contours));
         slide_to_surface(through.function, places, {.reach_mm = cells.edge_mm(), .steps = 2}, work);

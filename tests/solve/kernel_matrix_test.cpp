@@ -64,5 +64,20 @@ TEST(DirectKernelMatrix, IsTheSameForAnyNumberOfThreads) {
     }
 }
 
+TEST(BorderedKernelMatrix, MultipliesAsTheFullSumDoes) {
+    std::mt19937 random = test::random_of_this_test();
+    const std::size_t count = 700;
+    const Problem p = random_problem(count, random);
+    std::vector<double> expected(count), product(count, -1.0);
+    sum_kernel({Kernel::screened, p.points, p.weights}, p.points, expected, {.threads = 1});
+    for (const std::size_t inner : {1, 650, 699, 700}) {
+        PointArrays first = p.points;
+        for (auto* axis : {&first.x, &first.y, &first.z}) axis->resize(inner);
+        const auto matrix = std::make_shared<const DirectKernelMatrix>(Kernel::screened, first);
+        BorderedKernelMatrix(Kernel::screened, matrix, p.points, {.threads = 2}).multiply(p.weights, product);
+        for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(product[i], expected[i], 1e-10) << inner << ", " << i;
+    }
+}
+
 }  // namespace
 }  // namespace kontur

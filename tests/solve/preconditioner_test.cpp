@@ -169,6 +169,39 @@ TEST(Preconditioner, OnePatternServesAllDiagonalsAndKernels) {
         }
 }
 
+TEST(Preconditioner, WithOtherEntriesOfTheDiagonalIsThatOfTheOtherMatrix) {
+    std::mt19937 random = test::random_of_this_test();
+    const PointArrays points = random_points(1500, random);
+    const auto pattern = std::make_shared<const PreconditionerPattern>(points);
+    const std::vector<double> before(points.size(), 1e-3);
+    const Preconditioner earlier(Kernel::screened, pattern, before);
+    for (const std::size_t changed : {0, 3, 700}) {
+        std::vector<double> now = before;
+        for (std::size_t i = 0; i < changed; ++i) now[(i * 977) % now.size()] = kLeftOut;
+        std::vector<double> r(points.size(), 1.0), expected(r.size()), z(r.size());
+        Preconditioner(Kernel::screened, pattern, now).apply(r, expected);
+        Preconditioner(earlier, Kernel::screened, pattern, {before, now}).apply(r, z);
+        EXPECT_EQ(z, expected) << changed;
+    }
+}
+
+TEST(Preconditioner, TakesFurtherPointsIntoTheInverseOfASmallSystem) {
+    std::mt19937 random = test::random_of_this_test();
+    const PointArrays points = random_points(110, random);
+    const std::vector<double> w = admissible_weights(points, random);
+    PointArrays first = points;
+    for (auto* axis : {&first.x, &first.y, &first.z}) axis->resize(100);
+    const auto pattern =
+        std::make_shared<const PreconditionerPattern>(first, PreconditionerOptions{.neighbours = 110, .dense_top = 20});
+    const std::vector<double> before(100, 1e-2), now(110, 1e-2);
+    const Preconditioner earlier(Kernel::triharmonic, pattern, before);
+    const auto wider = std::make_shared<const PreconditionerPattern>(*pattern, points);
+    std::vector<double> found(w.size());
+    Preconditioner(earlier, Kernel::triharmonic, wider, {before, now})
+        .apply(matrix_times(Kernel::triharmonic, points, 1e-2, w), found);
+    for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(found[i], w[i], 0.02) << i;
+}
+
 TEST(PreconditionerPattern, StopsWhenAsked) {
     std::mt19937 random = test::random_of_this_test();
     StopSource stop;

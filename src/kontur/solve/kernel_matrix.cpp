@@ -2,6 +2,8 @@
 #include "kontur/solve/kernel_matrix.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "kontur/base/parallel.h"
 #include "kontur/solve/h2_kernel_matrix.h"
@@ -76,6 +78,31 @@ void DirectKernelMatrix::multiply_all(std::span<const double> weights, std::span
             out[i] = total;
         }
     });
+}
+
+BorderedKernelMatrix::BorderedKernelMatrix(Kernel kernel, std::shared_ptr<const KernelMatrix> inner,
+                                           const PointArrays& points, const Work& work)
+    : inner_(std::move(inner)), size_(points.size()), rows_((size_ - inner_->size()) * size_), work_(work.untold()) {
+    const std::size_t first = inner_->size();
+    parallel_for(static_cast<std::int64_t>(size_ - first), 1, work_, [&](std::int64_t begin, std::int64_t end) {
+        for (auto a = static_cast<std::size_t>(begin); a < static_cast<std::size_t>(end); ++a)
+            for (std::size_t j = 0; j < size_; ++j)
+                rows_[a * size_ + j] = kernel_value(kernel, distance(points[first + a], points[j]));
+    });
+}
+
+void BorderedKernelMatrix::multiply(std::span<const double> weights, std::span<double> out) const {
+    const std::size_t first = inner_->size();
+    inner_->multiply(weights.first(first), out.first(first));
+    for (std::size_t a = first; a < size_; ++a) {
+        const double* row = &rows_[(a - first) * size_];
+        out[a] = std::inner_product(weights.begin(), weights.end(), row, 0.0);
+        for (std::size_t j = 0; j < first; ++j) out[j] += weights[a] * row[j];
+    }
+}
+
+double BorderedKernelMatrix::megabytes() const {
+    return inner_->megabytes() + static_cast<double>(rows_.size() * sizeof(double)) / (1 << 20);
 }
 
 std::unique_ptr<KernelMatrix> make_kernel_matrix(Kernel kernel, const PointArrays& points, Products products,

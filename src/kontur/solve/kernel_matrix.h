@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
@@ -50,6 +51,26 @@ private:
     Kernel kernel_;
     std::size_t size_;
     PointArrays points_;  ///< with kNodePadding more
+    Work work_;
+};
+
+/// A matrix with the rows and columns of further points beside it: these are stored and multiplied one by one.
+class BorderedKernelMatrix final : public KernelMatrix {
+public:
+    /// The first of the points are those of `inner`.
+    BorderedKernelMatrix(Kernel kernel, std::shared_ptr<const KernelMatrix> inner, const PointArrays& points,
+                         const Work& work = {});
+
+    std::size_t size() const override { return size_; }
+    void multiply(std::span<const double> weights, std::span<double> out) const override;
+    double megabytes() const override;
+    double evaluations() const override { return inner_->evaluations(); }
+    bool is_exact() const override { return inner_->is_exact(); }
+
+private:
+    std::shared_ptr<const KernelMatrix> inner_;
+    std::size_t size_;
+    std::vector<double> rows_;  ///< of the further points, as long as all points are many
     Work work_;
 };
 

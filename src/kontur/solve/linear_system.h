@@ -12,16 +12,23 @@
 
 namespace kontur {
 
+struct SolverSetup;
+
+/// Smoothing that leaves nothing of a weight: the centre is left out.
+inline constexpr double kLeftOut = 1e20;
+
 /// The interpolation problem in unit coordinates, as the solvers see it.
 struct LinearSystem {
     Kernel kernel;
-    std::vector<double> smoothing;   ///< of every constraint
-    PointArrays centers;             ///< unit coordinates
-    std::vector<double> values;      ///< mm, above the mean
-    std::vector<double> start = {};  ///< weights that may be close to the solution; empty: none are known
+    std::vector<double> smoothing;                  ///< of every constraint
+    PointArrays centers;                            ///< unit coordinates
+    std::vector<double> values;                     ///< mm, above the mean
+    std::vector<double> start = {};                 ///< weights that may be close to the solution; empty: none are known
+    std::shared_ptr<const SolverSetup> setup = {};  ///< of the first of these centres, if there is one already
     std::shared_ptr<const PreconditionerPattern> pattern = {};  ///< of these centres, if there is one already
 
     std::size_t size() const { return values.size(); }
+    bool is_left_out(std::size_t i) const { return smoothing[i] == kLeftOut; }
     double entry(std::size_t i, std::size_t j) const {
         const double r = distance(centers[i], centers[j]);
         const double value = kernel == Kernel::screened ? screened_kernel(r) : kernel_value(kernel, r);
@@ -45,6 +52,7 @@ struct Coefficients {
     double evaluations = 0;  ///< see SolveReport
     std::vector<std::pair<std::string, double>> seconds = {};
     std::shared_ptr<const PreconditionerPattern> pattern = {};
+    std::shared_ptr<const SolverSetup> setup = {};  ///< for the next system
 };
 
 /// Eq. 6 as printed, by dsysv (Bunch-Kaufman).

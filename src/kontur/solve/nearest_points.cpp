@@ -43,10 +43,21 @@ KONTUR_EVERY_INSTRUCTION_SET double nearest_squared_distance(const PointArrays& 
     return *std::min_element(std::begin(nearest), std::end(nearest));
 }
 
-void keep_nearest(std::vector<std::pair<double, std::int32_t>>& candidates, std::size_t count) {
+using Candidate = std::pair<double, std::int32_t>;  // squared distance, point
+
+void keep_nearest(std::vector<Candidate>& candidates, std::size_t count) {
     if (candidates.size() <= count) return;
     std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end());
     candidates.resize(count);
+}
+
+/// Their numbers, ascending.
+std::vector<std::int32_t> nearest(std::vector<Candidate> candidates, std::size_t count) {
+    keep_nearest(candidates, count);
+    std::vector<std::int32_t> result;
+    for (const auto& [squared, point] : candidates) result.push_back(point);
+    std::sort(result.begin(), result.end());
+    return result;
 }
 
 }  // namespace
@@ -113,11 +124,17 @@ std::vector<std::int32_t> EarlierNeighbours::of(std::int32_t begin, std::int32_t
     search.box.half = 0.5 * box.size();
     search.box.center = box.min + search.box.half;
     if (begin > 0) visit(0, search);
-    keep_nearest(search.candidates, search.wanted);
-    std::vector<std::int32_t> result;
-    for (const auto& [squared, point] : search.candidates) result.push_back(point);
-    std::sort(result.begin(), result.end());
-    return result;
+    return nearest(std::move(search.candidates), search.wanted);
+}
+
+std::vector<std::int32_t> nearest_points(const PointArrays& points, const Vec3& place, std::int32_t count,
+                                         const std::function<bool(std::size_t)>& is_wanted) {
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 d = points[i] - place;
+        if (is_wanted(i)) candidates.emplace_back(dot(d, d), static_cast<std::int32_t>(i));
+    }
+    return nearest(std::move(candidates), static_cast<std::size_t>(count));
 }
 
 }  // namespace kontur

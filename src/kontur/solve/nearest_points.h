@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "kontur/base/work.h"
 #include "kontur/function/point_arrays.h"
@@ -21,7 +23,6 @@ public:
     std::vector<std::int32_t> of(std::int32_t begin, std::int32_t end, std::int32_t count) const;
 
 private:
-    using Candidate = std::pair<double, std::int32_t>;  ///< squared distance, point
     struct Search;
 
     void visit(std::int32_t cluster, Search& search) const;
@@ -31,5 +32,10 @@ private:
     PointArrays clustered_;               ///< the points in the tree's order
     std::vector<std::int32_t> earliest_;  ///< first point of every cluster
 };
+
+/// The `count` points nearest to a place among those that are `wanted`; ascending, and fewer if there are not that many.
+/// Asks all of them: for a few places.
+std::vector<std::int32_t> nearest_points(const PointArrays& points, const Vec3& place, std::int32_t count,
+                                         const std::function<bool(std::size_t)>& is_wanted);
 
 }  // namespace kontur

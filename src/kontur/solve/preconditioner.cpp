@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 
 #include "kontur/base/error.h"
 #include "kontur/base/instruction_sets.h"
@@ -124,13 +125,55 @@ KONTUR_EVERY_INSTRUCTION_SET void apply_rows(const float* rows, std::int32_t m, 
     }
 }
 
+struct LocalKernel {
+    Kernel kernel;
+    double polynomial_weight;
+};
+
+/// Rows of the last `members` points in the inverse of the factor of these points' matrix; none where it has no factor.
+std::vector<double> last_rows(const LocalKernel& of, const PointArrays& points, std::span<const std::int32_t> columns,
+                              std::int32_t members, std::span<const double> diagonal) {
+    const auto n = static_cast<int>(columns.size());
+    LocalPoints local;
+    localise(points, columns, members, local);
+    const double scale = degree_scale(of.kernel, local.radius);
+    std::vector<double> matrix(static_cast<std::size_t>(padded_rows(n)) * static_cast<std::size_t>(n));
+    std::vector<double> rows(static_cast<std::size_t>(n) * static_cast<std::size_t>(members));
+    fill_local(of.kernel, local, polynomial_weights(of.kernel, of.polynomial_weight, local.radius), matrix.data(), n);
+    add_diagonal(diagonal, columns, scale, matrix.data());
+    if (!small_cholesky(matrix.data(), n)) return {};
+    last_rows_of_inverse(matrix.data(), n, members, rows.data());
+    const double factor = 1 / std::sqrt(scale);
+    for (double& v : rows) v *= factor;
+    return rows;
+}
+
 }  // namespace
 
 Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern,
                                std::span<const double> diagonal, const Work& work)
     : pattern_(std::move(pattern)), work_(work.untold()) {
+    factorise(kernel, diagonal, std::vector<bool>(diagonal.size(), true));
+}
+
+Preconditioner::Preconditioner(const Preconditioner& earlier, Kernel kernel,
+                               std::shared_ptr<const PreconditionerPattern> pattern, const Diagonals& diagonals,
+                               const Work& work)
+    : Preconditioner(earlier) {
+    pattern_ = std::move(pattern);
+    work_ = work.untold();
+    std::vector<bool> has_changed(diagonals.now.size(), true);
+    for (std::size_t i = 0; i < diagonals.earlier.size(); ++i) has_changed[i] = diagonals.now[i] != diagonals.earlier[i];
+    factorise(kernel, diagonals.now, has_changed);
+}
+
+void Preconditioner::factorise(Kernel kernel, std::span<const double> diagonal, const std::vector<bool>& has_changed) {
+    const std::vector<std::int32_t>& order = pattern_->order();
     std::vector<double> ordered;
-    for (const std::int32_t point : pattern_->order()) ordered.push_back(diagonal[static_cast<std::size_t>(point)]);
+    for (const std::int32_t point : order) ordered.push_back(diagonal[static_cast<std::size_t>(point)]);
+    const auto changes = [&](std::int32_t i) {
+        return has_changed[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
+    };
 
     const std::vector<PreconditionerPattern::Supernode>& nodes = pattern_->supernodes();
     rows_begin_.resize(nodes.size() + 1);
@@ -139,11 +182,13 @@ Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const Precondition
             rows_begin_[s] + static_cast<std::size_t>(nodes[s].members) * static_cast<std::size_t>(nodes[s].size());
     rows_.resize(rows_begin_.back());
     for_top_and_nodes(4, [&](std::size_t s) {
-        work.check();
-        if (s == kTop) factorise_top(kernel, ordered);
-        else
-            factorise(kernel, nodes[s], ordered,
-                      std::span(rows_).subspan(rows_begin_[s], rows_begin_[s + 1] - rows_begin_[s]));
+        work_.check();
+        if (s == kTop) {
+            if (std::ranges::any_of(std::views::iota(0, pattern_->top()), changes)) factorise_top(kernel, ordered);
+        } else if (std::ranges::any_of(pattern_->columns(nodes[s]), changes)) {
+            factorise_node(kernel, nodes[s], ordered,
+                           std::span(rows_).subspan(rows_begin_[s], rows_begin_[s + 1] - rows_begin_[s]));
+        }
     });
 }
 
@@ -176,22 +221,22 @@ void Preconditioner::factorise_top(Kernel kernel, std::span<const double> diagon
 }
 
 /// A node that cannot be factorised keeps rows of zeros: no preconditioning of these points.
-void Preconditioner::factorise(Kernel kernel, const PreconditionerPattern::Supernode& node, std::span<const double> diagonal,
-                               std::span<float> rows) const {
-    const int n = node.size();
-    LocalPoints local;
-    localise(pattern_->points(), pattern_->columns(node), node.members, local);
-    const double scale = degree_scale(kernel, local.radius);
-    std::vector<double> matrix(static_cast<std::size_t>(padded_rows(n)) * static_cast<std::size_t>(n));
-    std::vector<double> inverse_rows(rows.size());
-    fill_local(kernel, local, polynomial_weights(kernel, pattern_->options().polynomial_weight, local.radius), matrix.data(),
-               n);
-    add_diagonal(diagonal, pattern_->columns(node), scale, matrix.data());
-    if (!small_cholesky(matrix.data(), n)) return;
-    last_rows_of_inverse(matrix.data(), n, node.members, inverse_rows.data());
-    const double factor = 1 / std::sqrt(scale);
-    std::transform(inverse_rows.begin(), inverse_rows.end(), rows.begin(),
-                   [factor](double v) { return static_cast<float>(v * factor); });
+void Preconditioner::factorise_node(Kernel kernel, const PreconditionerPattern::Supernode& node,
+                                    std::span<const double> diagonal, std::span<float> rows) const {
+    const std::vector<double> inverse_rows = last_rows({kernel, pattern_->options().polynomial_weight}, pattern_->points(),
+                                                       pattern_->columns(node), node.members, diagonal);
+    std::ranges::fill(rows, 0.0F);
+    std::ranges::transform(inverse_rows, rows.begin(), [](double v) { return static_cast<float>(v); });
+}
+
+std::vector<double> shares_of_neighbours(Kernel kernel, const PointArrays& points, std::span<const std::int32_t> columns,
+                                         std::span<const double> diagonal) {
+    std::vector<double> row = last_rows({kernel, PreconditionerOptions{}.polynomial_weight}, points, columns, 1, diagonal);
+    if (row.empty()) return {};
+    const double own = row.back();
+    row.pop_back();
+    for (double& v : row) v /= -own;
+    return row;
 }
 
 void Preconditioner::apply(std::span<const double> r, std::span<double> z) const {

@@ -26,6 +26,8 @@ class PreconditionerPattern {
 public:
     explicit PreconditionerPattern(const PointArrays& points, const PreconditionerOptions& options = {},
                                    const Work& work = {});
+    /// Of more points, the first of which are those of `earlier`: the others come last in order, each by itself.
+    PreconditionerPattern(const PreconditionerPattern& earlier, const PointArrays& points);
 
     /// Consecutive points in order that share their neighbours.
     struct Supernode {
@@ -66,6 +68,11 @@ private:
     std::vector<std::size_t> first_occurrence_;
 };
 
+/// That of an earlier matrix, and that of one with further points.
+struct Diagonals {
+    std::span<const double> earlier, now;
+};
+
 /// A sparse approximate inverse Cholesky factor G of the kernel matrix, M^-1 = G^T G (Kaporin 1994; Vecchia 1988; supernodes
 /// after Schaefer, Katzfuss & Owhadi 2021): every point's row is the exact one given its nearest coarser points. The
 /// coarsest points are factorised densely, which carries the global part. O(n) memory; set-up O(n k^2) for k neighbours.
@@ -74,6 +81,11 @@ public:
     /// `sign` * phi on the pattern's points, and `diagonal` (one per given point) added, is the matrix; see kernel_sign.
     Preconditioner(Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern, std::span<const double> diagonal,
                    const Work& work = {});
+    /// With the rows of `earlier` where they stay the same: its pattern may have further points, the diagonal other entries.
+    Preconditioner(const Preconditioner& earlier, Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern,
+                   const Diagonals& diagonals, const Work& work = {});
+
+    const std::shared_ptr<const PreconditionerPattern>& pattern() const { return pattern_; }
 
     /// z = M^-1 r. The same bytes for any number of threads.
     void apply(std::span<const double> r, std::span<double> z) const;
@@ -83,9 +95,11 @@ public:
 private:
     template <class Task>
     void for_top_and_nodes(std::int64_t chunk, const Task& task) const;
+    /// Only the top and the supernodes with points that have changed.
+    void factorise(Kernel kernel, std::span<const double> diagonal, const std::vector<bool>& has_changed);
     void factorise_top(Kernel kernel, std::span<const double> diagonal);
-    void factorise(Kernel kernel, const PreconditionerPattern::Supernode& node, std::span<const double> diagonal,
-                   std::span<float> rows) const;
+    void factorise_node(Kernel kernel, const PreconditionerPattern::Supernode& node, std::span<const double> diagonal,
+                        std::span<float> rows) const;
 
     std::shared_ptr<const PreconditionerPattern> pattern_;
     Work work_;
@@ -94,5 +108,10 @@ private:
     std::vector<std::size_t> rows_begin_;  ///< of every supernode in rows_
     std::vector<float> rows_;              ///< members x (neighbours + members) of every supernode, row major
 };
+
+/// Of the point that the last of `columns` names, what it is by the others: the weights of phi at these whose sum is nearest
+/// to phi at that point.
+std::vector<double> shares_of_neighbours(Kernel kernel, const PointArrays& points, std::span<const std::int32_t> columns,
+                                         std::span<const double> diagonal);
 
 }  // namespace kontur

@@ -43,6 +43,23 @@ PreconditionerPattern::PreconditionerPattern(const PointArrays& points, const Pr
     index_occurrences();
 }
 
+PreconditionerPattern::PreconditionerPattern(const PreconditionerPattern& earlier, const PointArrays& points)
+    : PreconditionerPattern(earlier) {
+    for (std::size_t i = order_.size(); i < points.size(); ++i) {
+        const auto point = static_cast<std::int32_t>(i);
+        const std::vector<std::int32_t> neighbours =
+            nearest_points(points_, points[i], options_.neighbours, [](std::size_t) { return true; });
+        supernodes_.push_back({point, 1, static_cast<std::int32_t>(neighbours.size()), columns_.size()});
+        columns_.insert(columns_.end(), neighbours.begin(), neighbours.end());
+        columns_.push_back(point);
+        order_.push_back(point);
+        points_.x.push_back(points.x[i]);
+        points_.y.push_back(points.y[i]);
+        points_.z.push_back(points.z[i]);
+    }
+    index_occurrences();
+}
+
 void PreconditionerPattern::cut_into_supernodes(const MultiscaleOrder& order) {
     for (std::size_t level = 0; level + 1 < order.level_begin.size(); ++level) {
         const std::int32_t level_end = order.level_begin[level + 1];

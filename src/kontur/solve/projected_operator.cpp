@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kontur/base/error.h"
+#include "kontur/solve/solver_setup.h"
 
 namespace kontur {
 namespace {
@@ -31,8 +32,9 @@ double largest(const Vector& a) {
     return result;
 }
 
-LinearPolynomials::LinearPolynomials(Kernel kernel, const PointArrays& centers) {
-    if (kernel == Kernel::screened) return;
+SideConditions::SideConditions(const LinearSystem& system) : system_(system) {
+    if (system.kernel == Kernel::screened) return;
+    const PointArrays& centers = system.centers;
     basis_ = {Vector(centers.size(), 1.0), centers.x, centers.y, centers.z};
     for (std::size_t m = 0; m < 4; ++m) {
         const double before = std::sqrt(inner(basis_[m], basis_[m]));
@@ -45,14 +47,21 @@ LinearPolynomials::LinearPolynomials(Kernel kernel, const PointArrays& centers) 
     }
 }
 
-void LinearPolynomials::project_out(Vector& v) const {
+void SideConditions::project(Vector& v) const {
     for (const Vector& q : basis_) add_scaled(v, -inner(v, q), q);
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (system_.is_left_out(i)) v[i] = 0;
 }
 
-ProjectedOperator::ProjectedOperator(const LinearSystem& system, const LinearPolynomials& polynomials, double tolerance,
+ProjectedOperator::ProjectedOperator(const LinearSystem& system, const SideConditions& conditions, double tolerance,
                                      const SolveOptions& options, const Work& work)
-    : system_(system), polynomials_(polynomials), tolerance_(tolerance), options_(options), work_(work) {
-    tighten(1);
+    : system_(system), conditions_(conditions), tolerance_(tolerance), options_(options), work_(work) {
+    if (!system.setup || system.setup->matrix->is_exact()) {
+        tighten(1);
+    } else {
+        tolerance_ = system.setup->matrix_tolerance;
+        matrix_ = std::make_shared<BorderedKernelMatrix>(system.kernel, system.setup->matrix, system.centers, work);
+    }
 }
 
 void ProjectedOperator::tighten(double factor) {
@@ -72,7 +81,7 @@ Vector ProjectedOperator::image(const KernelMatrix& matrix, const Vector& w) con
 
 Vector ProjectedOperator::operator()(const Vector& w) const {
     Vector out = image(*matrix_, w);
-    polynomials_.project_out(out);
+    conditions_.project(out);
     return out;
 }
 

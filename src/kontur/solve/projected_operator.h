@@ -17,18 +17,20 @@ void add_scaled(Vector& a, double s, const Vector& b);
 /// Largest absolute value.
 double largest(const Vector& a);
 
-/// An orthonormal basis of the linear polynomials' values at the centres, or of nothing for the screened kernel, which is
-/// definite without side conditions.
-class LinearPolynomials {
+/// What weights have to satisfy: those of centres left out are 0; and but for the screened kernel, which is definite
+/// without, all linear polynomials' values at the centres are orthogonal to them.
+class SideConditions {
 public:
-    /// Throws Error(singular_system) when all centres lie in one plane and the kernel needs side conditions.
-    LinearPolynomials(Kernel kernel, const PointArrays& centers);
+    /// Keeps a reference to the system. Throws Error(singular_system) when all centres lie in one plane and the kernel needs
+    /// the polynomials.
+    explicit SideConditions(const LinearSystem& system);
 
-    /// Removes the best linear fit.
-    void project_out(Vector& v) const;
+    /// Removes the best linear fit, and what stands at centres left out.
+    void project(Vector& v) const;
 
 private:
-    std::vector<Vector> basis_;
+    const LinearSystem& system_;
+    std::vector<Vector> basis_;  ///< orthonormal, of the polynomials' values
 };
 
 /// sign (Phi + diagonal) w, and what is known of its error.
@@ -42,8 +44,8 @@ struct CheckedImage {
 /// sign (Phi + diagonal) on the weights that satisfy the side conditions; definite there.
 class ProjectedOperator {
 public:
-    /// `tolerance` as in H2Options. Keeps references to its arguments.
-    ProjectedOperator(const LinearSystem& system, const LinearPolynomials& polynomials, double tolerance,
+    /// `tolerance` as in H2Options, unless the system has a setup. Keeps references to its arguments.
+    ProjectedOperator(const LinearSystem& system, const SideConditions& conditions, double tolerance,
                       const SolveOptions& options, const Work& work);
 
     Vector operator()(const Vector& w) const;
@@ -54,18 +56,18 @@ public:
     /// Multiplies the tolerance.
     void tighten(double factor);
     double tolerance() const { return tolerance_; }
-    const KernelMatrix& matrix() const { return *matrix_; }
+    const std::shared_ptr<const KernelMatrix>& matrix() const { return matrix_; }
 
 private:
     Vector image(const KernelMatrix& matrix, const Vector& w) const;
     double sampled_deviation(const Vector& w, const Vector& image, std::size_t samples) const;
 
     const LinearSystem& system_;
-    const LinearPolynomials& polynomials_;
+    const SideConditions& conditions_;
     double tolerance_;
     const SolveOptions& options_;
     const Work& work_;
-    std::unique_ptr<KernelMatrix> matrix_;
+    std::shared_ptr<const KernelMatrix> matrix_;
 };
 
 }  // namespace kontur

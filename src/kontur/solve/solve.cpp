@@ -8,12 +8,16 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/base/pick.h"
 #include "kontur/function/smoothing_of_noise.h"
 #include "kontur/solve/linear_system.h"
+#include "kontur/solve/solver_setup.h"
 
 namespace kontur {
 namespace {
@@ -137,8 +141,23 @@ std::vector<double> start_weights(const std::vector<Vec3>& centers, const Previo
     return start;
 }
 
+/// From where the previous solve ended: with its setup if that fits, or else with its weights.
+Coefficients run_after(PreviousSolve& previous, LinearSystem& system, const std::vector<Vec3>& centers_mm, double scale,
+                       const SolveOptions& options, const Work& work) {
+    if (previous.setup)
+        if (std::optional<SharedSystem> shared = share(system, std::exchange(previous.setup, nullptr))) {
+            Coefficients c = run(shared->system, options, work);
+            c.weights = pick(c.weights, shared->places);
+            c.pattern = nullptr;  // of other centres
+            return c;
+        }
+    if (!previous.centers.empty()) system.start = start_weights(centers_mm, previous, scale);
+    if (previous.centers == centers_mm) system.pattern = previous.pattern;
+    return run(system, options, work);
+}
+
 PreviousSolve remember(const ConstraintSet& constraints, const Coefficients& c, double scale) {
-    PreviousSolve solve{constraints.centers, c.weights, c.pattern};
+    PreviousSolve solve{constraints.centers, c.weights, c.pattern, c.setup};
     for (double& w : solve.weights) w /= scale;
     return solve;
 }
@@ -203,11 +222,8 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
     for (double& value : system.values) value -= mean;
     if (!screened) static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane: dsysv may not notice
     const double scale = kernel_scale(options.kernel, frame);
-    if (previous && !previous->centers.empty()) {
-        system.start = start_weights(constraints.centers, *previous, scale);
-        if (previous->centers == constraints.centers) system.pattern = previous->pattern;
-    }
-    Coefficients c = run(system, options, work);
+    Coefficients c =
+        previous ? run_after(*previous, system, constraints.centers, scale, options, work) : run(system, options, work);
     const auto finite = [](double w) { return std::isfinite(w); };
     if (!finite(c.residual) || !std::ranges::all_of(c.weights, finite))
         throw Error(ErrorKind::singular_system, "the linear system has no finite solution");

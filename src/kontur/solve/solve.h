@@ -66,12 +66,14 @@ struct Solution {
 };
 
 class PreconditionerPattern;
+struct SolverSetup;
 
 /// What a solve leaves to the next one of a similar problem.
 struct PreviousSolve {
     std::vector<Vec3> centers;    ///< mm
     std::vector<double> weights;  ///< of phi of distances in mm
     std::shared_ptr<const PreconditionerPattern> pattern = {};
+    std::shared_ptr<const SolverSetup> setup = {};
 };
 
 /// The variational interpolant through the constraints: with the screened kernel the function that departs least from its

@@ -5,10 +5,12 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "kontur/base/error.h"
 #include "kontur/solve/preconditioner.h"
 #include "kontur/solve/projected_operator.h"
+#include "kontur/solve/solver_setup.h"
 
 #include <fmt/format.h>
 
@@ -82,6 +84,22 @@ private:
     std::vector<std::pair<std::string, double>> seconds_;
 };
 
+std::shared_ptr<const PreconditionerPattern> pattern_of(const LinearSystem& system, const Work& work) {
+    if (system.pattern) return system.pattern;
+    if (system.setup)
+        return std::make_shared<const PreconditionerPattern>(*system.setup->preconditioner->pattern(), system.centers);
+    return std::make_shared<const PreconditionerPattern>(system.centers, PreconditionerOptions{}, work);
+}
+
+std::shared_ptr<const Preconditioner> preconditioner_of(const LinearSystem& system,
+                                                        std::shared_ptr<const PreconditionerPattern> pattern,
+                                                        const Work& work) {
+    if (system.setup)
+        return std::make_shared<const Preconditioner>(*system.setup->preconditioner, system.kernel, std::move(pattern),
+                                                      Diagonals{system.setup->smoothing, system.smoothing}, work);
+    return std::make_shared<const Preconditioner>(system.kernel, std::move(pattern), system.smoothing, work);
+}
+
 /// Solves by conjugate gradients and checks what they have reached.
 class IterativeSolver {
 public:
@@ -91,25 +109,19 @@ public:
           work_(work),
           limit_(*options.tolerance_mm),
           goal_(0.5 * limit_),
-          polynomials_(system.kernel, system.centers),
-          pattern_(system.pattern ? system.pattern
-                                  : times_("neighbours",
-                                           [&] {
-                                               return std::make_shared<const PreconditionerPattern>(
-                                                   system.centers, PreconditionerOptions{}, work);
-                                           })),
-          preconditioner_(
-              times_("factors", [&] { return Preconditioner(system.kernel, pattern_, system.smoothing, work); })),
+          conditions_(system),
+          pattern_(times_("neighbours", [&] { return pattern_of(system, work); })),
+          preconditioner_(times_("factors", [&] { return preconditioner_of(system, pattern_, work); })),
           weights_(system.start.empty() ? Vector(system.size(), 0.0) : system.start),
           target_(system.values),
           image_{.values = Vector(system.size()), .checked = system.size()} {
         for (double& v : target_) v *= kernel_sign(system.kernel);
-        polynomials_.project_out(target_);
+        conditions_.project(target_);
         start_ = std::max(largest(target_), limit_);
         // The preconditioner's first guess at the weights tells how large they are.
         const double tolerance = matrix_tolerance(precondition(target_), limit_);
-        times_("matrix", [&] { operator_.emplace(system, polynomials_, tolerance, options, work); });
-        polynomials_.project_out(weights_);
+        times_("matrix", [&] { operator_.emplace(system, conditions_, tolerance, options, work); });
+        conditions_.project(weights_);
         update_residual();
         if (!system.start.empty()) start_from_weights();
     }
@@ -121,11 +133,11 @@ public:
         double last_residual = std::numeric_limits<double>::infinity(), last_deviation = last_residual;
         while (true) {
             const bool stuck = !descend();
-            polynomials_.project_out(weights_);
+            conditions_.project(weights_);
             check_image(stuck);
             if (residual_ <= limit_) return;
             const bool to_blame = stuck || image_.deviation > kMostDeviation * limit_;
-            if (!operator_->matrix().is_exact() && to_blame && operator_->tolerance() > kFinest &&
+            if (!operator_->matrix()->is_exact() && to_blame && operator_->tolerance() > kFinest &&
                 (stuck || image_.deviation < 0.5 * last_deviation))
                 tighten();
             else if (!(residual_ < 0.5 * last_residual)) return;
@@ -143,10 +155,13 @@ public:
         c.iterations = iterations_;
         c.residual = residual_;
         c.residual_points = image_.checked;
-        c.matrix_mb = preconditioner_.megabytes() + operator_->matrix().megabytes();
-        c.evaluations = operator_->matrix().evaluations();
+        c.matrix_mb = preconditioner_->megabytes() + operator_->matrix()->megabytes();
+        c.evaluations = operator_->matrix()->evaluations();
         c.seconds = times_.seconds();
         c.pattern = pattern_;
+        c.setup = std::make_shared<const SolverSetup>(SolverSetup{
+            system_.centers, system_.smoothing, c.weights, system_.setup ? system_.setup->first_centers : system_.size(),
+            preconditioner_, operator_->matrix(), operator_->tolerance()});
         return c;
     }
 
@@ -164,8 +179,8 @@ private:
 
     Vector precondition(const Vector& r) {
         Vector z(r.size());
-        times_("preconditioning", [&] { preconditioner_.apply(r, z); });
-        polynomials_.project_out(z);
+        times_("preconditioning", [&] { preconditioner_->apply(r, z); });
+        conditions_.project(z);
         return z;
     }
 
@@ -212,7 +227,7 @@ private:
     /// Whether the recurrence's residual can only have drifted by far less than what is asked for: by the rounding of sums
     /// over all pairs. Of the other kernels the image is needed before its projection.
     bool has_exact_residual() const {
-        if (system_.kernel != Kernel::screened || !operator_->matrix().is_exact()) return false;
+        if (system_.kernel != Kernel::screened || !operator_->matrix()->is_exact()) return false;
         double sum = 0;
         for (const double w : weights_) sum += std::abs(w);
         const double largest_term = kernel_value(Kernel::screened, 2.0);
@@ -222,7 +237,7 @@ private:
     void update_residual() {
         r_ = target_;
         add_scaled(r_, -1.0, image_.values);
-        polynomials_.project_out(r_);
+        conditions_.project(r_);
         residual_ = largest(r_) + image_.uncertainty;
     }
 
@@ -233,9 +248,9 @@ private:
     double limit_;
     double goal_;  ///< for the recurrence's residual: what the matrix's error leaves of the limit
     double start_ = 0;
-    LinearPolynomials polynomials_;
+    SideConditions conditions_;
     std::shared_ptr<const PreconditionerPattern> pattern_;
-    Preconditioner preconditioner_;
+    std::shared_ptr<const Preconditioner> preconditioner_;
     std::optional<ProjectedOperator> operator_;
     Vector weights_, target_, r_;
     CheckedImage image_;  ///< of the weights

@@ -155,17 +155,13 @@ std::vector<std::string> write_mask(const OutputFile& file, const Segmentation& 
     return write_dicom_seg(path, {{result.mask.grid, result.mask.values}, {segment}}, series_of(images), write, work);
 }
 
-std::vector<std::string> write_masks_over_time(const OutputFile& file, std::span<const Mask> masks,
-                                               const StructureAttributes& attributes, const LabelName& label,
-                                               const Work& work) {
+std::vector<std::string> write_masks_over_time(const OutputFile& file, const std::vector<std::span<const Mask>>& masks,
+                                               const std::vector<DicomSegment>& segments, const Work& work) {
     const auto& [path, images, series, provenance] = file;
-    DicomSegment segment = fitted_segment(attributes);
-    segment.label = label.name;
-    segment.color = to_rgb8(label.color);
     WriteDicomSegOptions write = seg_options(series, provenance);
     write.algorithm = {"kontur variational interpolation over time", KONTUR_VERSION, text_of(provenance)};
     const std::vector<DicomSeries> volumes = list_dicom_frames(images.path, images.options.dicom, work);
-    return write_dicom_seg_over_time(path, {masks, segment, volumes}, write, work);
+    return write_dicom_seg_over_time(path, {masks, segments, volumes}, write, work);
 }
 
 std::vector<std::string> write_image(const OutputFile& file, const Image& image, const ImageInput& source,

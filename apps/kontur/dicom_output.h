@@ -67,10 +67,9 @@ struct OutputFile {
 std::vector<std::string> write_mask(const OutputFile& file, const Segmentation& result,
                                     const StructureAttributes& attributes, const LabelName& label, const Work& work);
 
-/// Writes masks of a fit over time as a DICOM segmentation with one segment, on volumes of a series.
-std::vector<std::string> write_masks_over_time(const OutputFile& file, std::span<const Mask> masks,
-                                               const StructureAttributes& attributes, const LabelName& label,
-                                               const Work& work);
+/// Writes masks of fits over time as a DICOM segmentation on volumes of a series: of each segment one for each volume.
+std::vector<std::string> write_masks_over_time(const OutputFile& file, const std::vector<std::span<const Mask>>& masks,
+                                               const std::vector<DicomSegment>& segments, const Work& work);
 
 /// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label,
 /// named as in the source where that names them. In NIfTI these names go into a table.

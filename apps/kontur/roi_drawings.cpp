@@ -112,21 +112,36 @@ std::vector<DicomSeries> frames_of(const SegmentCommand& command, const Work& wo
     return frames.size() > 1 ? frames : std::vector<DicomSeries>{};
 }
 
-/// Of images in time the frame is read in which all was drawn; contours need no frame then.
+/// Of images in time the frame is read in which all was drawn; contours need no frame then. Of several all are to be read.
 void place_in_time(RoiDrawings& drawings, const std::vector<DicomSeries>& frames, const Work& work) {
     std::set<std::optional<double>> drawn;
     for (const Roi& roi : drawings.rois)
         for (const Contour& contour : roi.contours.contours) drawn.insert(contour.frame);
     if (frames.empty() || drawn == std::set<std::optional<double>>{std::nullopt}) return;
     ImageInput& image = drawings.input;
-    if (drawn.size() > 1)
+    if (drawn.size() > 1 && drawn.contains(std::nullopt))
         refuse(fmt::format("the ROIs refer to several frames of {}: {}; name one at a time with --roi", image.path.string(),
                            listed(drawn)));
+    drawings.are_moving = drawn.size() > 1;
+    if (drawings.are_moving) return;
     const double frame = **drawn.begin();
     drawings.notes.push_back(fmt::format("all contours refer to frame {} of {}, which is read", frame, image.path.string()));
     for (Roi& roi : drawings.rois)
         for (Contour& contour : roi.contours.contours) contour.frame.reset();
     image = source_of_frame(image, read_image_frames(image.path, image.options, work), static_cast<std::int64_t>(frame));
+}
+
+/// Its grid, and its voxels where they matter: those of several frames are read one by one.
+void read_image_of(RoiDrawings& drawings, const SegmentCommand& command, const Work& work) {
+    const ImageInput& all = drawings.input;
+    const ImageInput image =
+        drawings.are_moving ? source_of_frame(all, read_image_frames(all.path, all.options, work), 1) : all;
+    for (std::string& note : frame_of_reference_notes(drawings.rois.front().frame_of_reference_uid, image))
+        drawings.notes.push_back(std::move(note));
+    const UseImage use = drawings.are_moving ? UseImage::off : command.options.use_image;
+    DrawnOn drawn_on = read_drawn_on(image, use, work, drawings.notes);
+    drawings.grid = drawn_on.grid;
+    drawings.image = std::move(drawn_on.image);
 }
 
 }  // namespace
@@ -151,16 +166,15 @@ RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
         }
     }
     place_in_time(drawings, frames, work);
-    leave_out(drawings, command.all_rois, [](const ContourSet& contours) { check_contours(contours); });
-    for (std::string& note : frame_of_reference_notes(drawings.rois.front().frame_of_reference_uid, drawings.input))
-        drawings.notes.push_back(std::move(note));
+    leave_out(drawings, command.all_rois, [&](const ContourSet& contours) {
+        if (!drawings.are_moving) return check_contours(contours);
+        if (const auto problems = contour_problems(contours); !problems.empty()) refuse(problems.front());
+    });
     if (command.image.path.empty()) {
         drawings.grid = own_grid(command, box_of(drawings.rois));
         return drawings;
     }
-    DrawnOn drawn_on = read_drawn_on(drawings.input, command.options.use_image, work, drawings.notes);
-    drawings.grid = drawn_on.grid;
-    drawings.image = std::move(drawn_on.image);
+    read_image_of(drawings, command, work);
     leave_out(drawings, command.all_rois,
               [&](const ContourSet& contours) { check_contours_inside(contours, drawings.grid); });
     return drawings;

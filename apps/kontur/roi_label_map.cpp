@@ -31,6 +31,10 @@ void RoiLabelMap::add(const Mask& mask, const IndexBox& box, std::uint16_t label
     most_ = std::max(most_, label);
 }
 
+void RoiLabelMap::add_shared(const RoiLabelMap& frame) {
+    for (const auto& [labels, voxels] : frame.shared_) shared_[labels] += voxels;
+}
+
 Image RoiLabelMap::image() const {
     if (most_ > std::numeric_limits<std::uint8_t>::max()) return {grid_, labels_};
     return {grid_, std::vector<std::uint8_t>(labels_.begin(), labels_.end())};

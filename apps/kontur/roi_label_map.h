@@ -26,6 +26,9 @@ public:
     /// The first label lies inside the second: its voxels are its own.
     void set_inside(std::uint16_t inner, std::uint16_t outer) { inner_.insert({inner, outer}); }
 
+    /// Voxels that structures share in another frame count in the notes, too.
+    void add_shared(const RoiLabelMap& frame);
+
     /// In 8 bits where they suffice.
     Image image() const;
 

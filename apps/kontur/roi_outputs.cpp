@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "contour_files.h"
 #include "kontur/base/machine_memory.h"
 #include "kontur/io/meshes/region_mesh.h"
 #include "kontur/segment_report.h"
@@ -27,6 +28,46 @@ Facts pairs_of(const std::vector<StructurePair>& pairs, const std::vector<Fitted
 }
 
 }  // namespace
+
+std::vector<std::string> names_of(const std::vector<FittedRoi>& all) {
+    std::vector<std::string> names;
+    for (const FittedRoi& one : all) names.push_back(one.segment.label);
+    return names;
+}
+
+FittedRoi fitted_roi(const RoiDrawings& drawings, std::size_t n, SegmentReport report) {
+    const Roi& roi = drawings.rois[n];
+    StructureAttributes attributes = fitted_attributes(roi.contours.attributes);
+    if (!attributes.color) attributes.color = structure_color(n);
+    FittedRoi fitted;
+    fitted.segment = fitted_segment(attributes);
+    fitted.segment.label = roi.name;
+    fitted.provenance = provenance(roi.contours, drawings.grid, report);
+    fitted.report = std::move(report);
+    put_notes_first(roi.notes, fitted.report.warnings);
+    fitted.roi.name = roi.name;
+    fitted.roi.number = roi.number;
+    fitted.roi.contours.attributes = std::move(attributes);
+    return fitted;
+}
+
+Provenance common_provenance(const std::vector<FittedRoi>& all) {
+    Provenance provenance = all.front().provenance;
+    Provenance others;
+    for (auto& [name, value] : provenance) {
+        const auto same = [&, &name = name, &value = value](const FittedRoi& one) {
+            return std::find(one.provenance.begin(), one.provenance.end(), std::pair{name, value}) != one.provenance.end();
+        };
+        if (std::all_of(all.begin(), all.end(), same)) continue;
+        for (std::size_t n = 0; n < all.size(); ++n)
+            for (const auto& [its_name, its_value] : all[n].provenance)
+                if (its_name == name) others.emplace_back(fmt::format("{}_{}", name, n + 1), its_value);
+        name.clear();
+    }
+    std::erase_if(provenance, [](const auto& entry) { return entry.first.empty(); });
+    provenance.insert(provenance.end(), others.begin(), others.end());
+    return provenance;
+}
 
 void RoiResults::add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box) {
     name_margin(command, one.report.warnings);
@@ -78,15 +119,16 @@ Facts roi_report(const RoiResults& result, const Provenance& provenance) {
     return report;
 }
 
+std::vector<LabelName> label_names(const std::vector<FittedRoi>& all) {
+    std::vector<LabelName> names;
+    for (const FittedRoi& one : all)
+        names.push_back({one.segment.number, one.segment.label, to_levels(one.segment.color.value_or(kStructureColor))});
+    return names;
+}
+
 std::vector<std::string> write_label_map(const fs::path& path, const RoiResults& result, const Provenance& provenance) {
-    std::vector<std::string> names;
-    std::vector<LabelName> labels;
-    for (const FittedRoi& one : result.all) {
-        names.push_back(one.segment.label);
-        labels.push_back({one.segment.number, one.segment.label, to_levels(one.segment.color.value_or(kStructureColor))});
-    }
-    kontur::write_image(path, result.labels.image(), labels, provenance);
-    return result.labels.notes(names);
+    kontur::write_image(path, result.labels.image(), {label_names(result.all), provenance});
+    return result.labels.notes(names_of(result.all));
 }
 
 std::vector<std::string> write_roi_contours(const fs::path& path, const SegmentCommand& command,

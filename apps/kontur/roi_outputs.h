@@ -27,6 +27,12 @@ struct FittedRoi {
     std::string rule{};  ///< of a derived structure, whose report has the mask's figures alone
 };
 
+/// What is said about the n-th structure beside its voxels.
+FittedRoi fitted_roi(const RoiDrawings& drawings, std::size_t n, SegmentReport report);
+
+/// What all fits say once, what differs with the label's number behind its name.
+Provenance common_provenance(const std::vector<FittedRoi>& all);
+
 /// What all ROIs became.
 struct RoiResults {
     std::vector<FittedRoi> all{};
@@ -47,6 +53,10 @@ struct RoiResults {
 
 /// The content of --report.
 Facts roi_report(const RoiResults& results, const Provenance& provenance);
+
+std::vector<std::string> names_of(const std::vector<FittedRoi>& all);
+/// What a label map calls its labels.
+std::vector<LabelName> label_names(const std::vector<FittedRoi>& all);
 
 /// Write one output and return what the user should know.
 std::vector<std::string> write_label_map(const std::filesystem::path& path, const RoiResults& results,

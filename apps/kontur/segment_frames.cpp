@@ -45,11 +45,29 @@ std::vector<fs::path> mesh_paths(const SegmentCommand& command, const ImageFrame
     return paths;
 }
 
-std::string json_of(const MovingSegmentation& result, const Provenance& provenance) {
-    nlohmann::ordered_json report;
+std::string summary_of(const SegmentCommand& command, const MovingSegmentation& result) {
+    const VolumeCurve& curve = result.volumes;
+    std::string text = fmt::format("{}: {}, {} drawn\n", command.output.string(), counted(result.masks.size(), "frame"),
+                                   counted(result.moments.size(), "moment"));
+    if (!result.meshes.empty() && !command.mesh.empty())
+        text += fmt::format("{}: {}\n", frame_path(command.mesh, 0, result.meshes.size()).string(),
+                            counted(result.meshes.size(), "surface"));
+    for (const fs::path& path : {command.picture, command.volumes, command.report})
+        if (!path.empty()) text += path.string() + "\n";
+    text += extremes_of(curve) + "\n";
+    const auto interval = curve.ejection_interval();
+    return text + fmt::format("stroke volume {:.4g} ml, ejection fraction {:.1f} %{}\n", curve.stroke_ml(),
+                              100 * curve.ejection_fraction(),
+                              interval ? fmt::format(" ({:.1f} to {:.1f})", 100 * interval->low, 100 * interval->high) : "");
+}
+
+}  // namespace
+
+Facts moving_report(const MovingSegmentation& result, const Provenance& provenance) {
+    Facts report;
     const VolumeCurve& curve = result.volumes;
     report["frames"] = result.masks.size();
-    report["moments"] = nlohmann::ordered_json::array();
+    report["moments"] = Facts::array();
     for (const DrawnMoment& moment : result.moments) {
         const SegmentReport& one = moment.segmentation.report;
         report["moments"].push_back({{"time", moment.time},
@@ -76,27 +94,13 @@ std::string json_of(const MovingSegmentation& result, const Provenance& provenan
     report["warnings"] = result.warnings;
     for (const auto& [stage, seconds] : result.seconds) report["seconds"][stage] = seconds;
     report["provenance"] = provenance_facts(provenance);
-    return report.dump(2) + "\n";
+    return report;
 }
 
-std::string summary_of(const SegmentCommand& command, const MovingSegmentation& result) {
-    const VolumeCurve& curve = result.volumes;
-    std::string text = fmt::format("{}: {}, {} drawn\n", command.output.string(), counted(result.masks.size(), "frame"),
-                                   counted(result.moments.size(), "moment"));
-    if (!result.meshes.empty() && !command.mesh.empty())
-        text += fmt::format("{}: {}\n", frame_path(command.mesh, 0, result.meshes.size()).string(),
-                            counted(result.meshes.size(), "surface"));
-    for (const fs::path& path : {command.picture, command.volumes, command.report})
-        if (!path.empty()) text += path.string() + "\n";
-    text += fmt::format("largest in frame {} ({:.4g} ml), smallest in frame {} ({:.4g} ml)\n", curve.largest + 1,
-                        curve.volumes_ml[curve.largest], curve.smallest + 1, curve.volumes_ml[curve.smallest]);
-    const auto interval = curve.ejection_interval();
-    return text + fmt::format("stroke volume {:.4g} ml, ejection fraction {:.1f} %{}\n", curve.stroke_ml(),
-                              100 * curve.ejection_fraction(),
-                              interval ? fmt::format(" ({:.1f} to {:.1f})", 100 * interval->low, 100 * interval->high) : "");
+std::string extremes_of(const VolumeCurve& curve) {
+    return fmt::format("largest in frame {} ({:.4g} ml), smallest in frame {} ({:.4g} ml)", curve.largest + 1,
+                       curve.volumes_ml[curve.largest], curve.smallest + 1, curve.volumes_ml[curve.smallest]);
 }
-
-}  // namespace
 
 bool is_animation(const SegmentCommand& command) { return has_extension(command.picture, ".apng"); }
 
@@ -152,9 +156,12 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
         work.check();
     };
     write(command.output, [&](const fs::path& path) {
-        if (!is_dicom_name(path)) return write_masks(path, result.masks, frames.step_s, label.label, facts);
-        for (std::string& note :
-             write_masks_over_time({path, known, command.series, facts}, result.masks, contours.attributes, label, work))
+        if (!is_dicom_name(path)) return write_masks(path, result.masks, frames.step_s, mask);
+        DicomSegment segment = fitted_segment(contours.attributes);
+        segment.label = mask.segment_name;
+        segment.color = to_rgb8(mask.segment_color);
+        const OutputFile file{path, known, command.series, mask.provenance};
+        for (std::string& note : write_masks_over_time(file, {result.masks}, {segment}, work))
             result.warnings.push_back(std::move(note));
     });
     for (std::size_t n = 0; n < meshes.size(); ++n)
@@ -165,7 +172,8 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
     write(command.volumes, [&](const fs::path& path) {
         write_file_atomically(path, volumes_csv(result.times, result.volumes, result.moments, frames.step_s));
     });
-    write(command.report, [&](const fs::path& path) { write_file_atomically(path, json_of(result, facts)); });
+    write(command.report,
+          [&](const fs::path& path) { write_file_atomically(path, to_json_text(moving_report(result, mask.provenance))); });
     outputs.commit();
     for (const std::string& warning : result.warnings) console.warn(warning);
     console.print(summary_of(command, result));

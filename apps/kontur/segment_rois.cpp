@@ -27,6 +27,7 @@
 #include "outputs.h"
 #include "roi_drawings.h"
 #include "roi_outputs.h"
+#include "segment_moving_rois.h"
 #include "structures.h"
 
 namespace kontur::app {
@@ -36,46 +37,10 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw Error(ErrorKind::invalid_input, sentence); }
 
-/// What all fits say once, what differs with the label's number behind its name.
-Provenance together(const std::vector<FittedRoi>& all) {
-    Provenance provenance = all.front().provenance;
-    Provenance others;
-    for (auto& [name, value] : provenance) {
-        const auto same = [&, &name = name, &value = value](const FittedRoi& one) {
-            return std::find(one.provenance.begin(), one.provenance.end(), std::pair{name, value}) != one.provenance.end();
-        };
-        if (std::all_of(all.begin(), all.end(), same)) continue;
-        for (std::size_t n = 0; n < all.size(); ++n)
-            for (const auto& [its_name, its_value] : all[n].provenance)
-                if (its_name == name) others.emplace_back(fmt::format("{}_{}", name, n + 1), its_value);
-        name.clear();
-    }
-    std::erase_if(provenance, [](const auto& entry) { return entry.first.empty(); });
-    provenance.insert(provenance.end(), others.begin(), others.end());
-    return provenance;
-}
-
 /// The borders of a mask on its slices, where no function says where they run.
 ContourSet slice_outlines(const BoxedMask& object, const Grid& grid) {
     constexpr std::int64_t kMargin = 4;  // as far as outlines are smoothed
     return slice_outlines(widened(object, object.box.padded({kMargin, kMargin, kMargin}, grid.size), grid).mask);
-}
-
-/// What is said about a structure beside its voxels.
-FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& result) {
-    const Roi& roi = drawings.rois[n];
-    StructureAttributes attributes = fitted_attributes(roi.contours.attributes);
-    if (!attributes.color) attributes.color = structure_color(n);
-    FittedRoi fitted;
-    fitted.segment = fitted_segment(attributes);
-    fitted.segment.label = roi.name;
-    fitted.provenance = provenance(roi.contours, drawings.grid, result.report);
-    fitted.report = std::move(result.report);
-    put_notes_first(roi.notes, fitted.report.warnings);
-    fitted.roi.name = roi.name;
-    fitted.roi.number = roi.number;
-    fitted.roi.contours.attributes = std::move(attributes);
-    return fitted;
 }
 
 IndexBox whole_box(const Grid& grid) { return {{0, 0, 0}, {grid.size.i - 1, grid.size.j - 1, grid.size.k - 1}}; }
@@ -95,7 +60,7 @@ RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, 
             Segmentation segmentation = segment(drawings.rois[n].contours, drawings.grid, image, options, work);
             ContourSet outlines;
             if (!command.rtstruct.empty()) outlines = slice_contours(segmentation.mask, segmentation.function, work);
-            FittedRoi one = fitted_from(drawings, n, segmentation);
+            FittedRoi one = fitted_roi(drawings, n, std::move(segmentation.report));
             if (!command.rules.empty()) result.for_rules.push_back({one.roi.name, segmentation.mask, segmentation.function});
             result.add(command, std::move(one), std::move(outlines), std::move(segmentation.mask), whole_box(drawings.grid));
         } catch (const Error& error) {
@@ -133,7 +98,7 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
     for (std::size_t n = 0; n < all.structures.size(); ++n) {
         BoxedMask object{all.boxes[n], std::move(all.structures[n].mask)};
         ContourSet outlines = command.rtstruct.empty() ? ContourSet{} : slice_outlines(object, drawings.grid);
-        FittedRoi one = fitted_from(drawings, n, all.structures[n]);
+        FittedRoi one = fitted_roi(drawings, n, std::move(all.structures[n].report));
         if (!command.rules.empty())
             result.for_rules.push_back(
                 {one.roi.name, widened(object, whole_box(drawings.grid), drawings.grid).mask, all.structures[n].function});
@@ -163,7 +128,6 @@ void check_roi_words(const SegmentCommand& command) {
     if (!command.picture.empty()) refuse_one("--picture");
     if (!command.uncertainty.empty()) refuse_one("--uncertainty");
     if (!command.volumes.empty()) refuse_one("--volumes");
-    if (command.cycle) refuse_one("--cycle");
     if (!command.name.empty()) refuse_one("--name");
     if (command.label.label != LabelName{}.label)
         refuse("--label-value is for one structure; several ROIs become the labels 1, 2, ...");
@@ -179,13 +143,15 @@ void check_roi_words(const SegmentCommand& command) {
 void segment_rois(const SegmentCommand& words, Console& console) {
     const Work work = console.work(words.threads);
     const RoiDrawings drawings = read_roi_drawings(words, work);
+    if (drawings.are_moving) return segment_moving_rois(words, drawings, console);
+    if (words.cycle) refuse("--cycle is for contours that were drawn at several moments");
     SegmentCommand command = words;
     command.image = drawings.input;
     if (!command.rules.empty()) check_roi_derivation(command, drawings);
     RoiResults result = command.together ? fit_together(command, drawings, work) : fit_each(command, drawings, work);
     const std::vector<FittedRoi>& all = result.all;
 
-    Provenance provenance = together(all);
+    Provenance provenance = common_provenance(all);
     if (!command.rules.empty()) add_derived_rois(command, drawings, result, work);
     for (const FittedRoi& one : all)
         if (!one.rule.empty()) provenance.emplace_back(fmt::format("rule_{}", one.segment.number), printable_utf8(one.rule));

@@ -13,6 +13,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/contours/contour_json.h"
+#include "kontur/io/image_frames.h"
 #include "kontur/shape/label_choice_error.h"
 #include "outputs.h"
 #include "structures.h"
@@ -69,6 +70,14 @@ void check(const TraceCommand& command) {
             fmt::format("{} has room for one structure; --all-labels is for an RTSTRUCT (.dcm)", command.output.string()));
 }
 
+/// That of --frame, which chooses the mask's; of a mask without frames it says of which phase that is.
+std::optional<std::int64_t> frame_of_contours(TraceCommand& command) {
+    const std::optional<std::int64_t> frame = command.read.frame;
+    if (!frame || has_extension(command.mask, ".seg.nrrd")) return std::nullopt;  // of which it chooses a layer
+    if (*frame > 0 && read_image_frames(command.mask, command.read).count == 1) command.read.frame.reset();
+    return frame;
+}
+
 /// Of several labels one has to be chosen, where the output has no room for all.
 Mask one_mask(const TraceCommand& command, Console& console, const Work& work) {
     try {
@@ -105,8 +114,10 @@ void trace_all(const TraceCommand& command, const ImageInput& images, Console& c
 
 }  // namespace
 
-void run(const TraceCommand& command, Console& console) {
+void run(const TraceCommand& words, Console& console) {
+    TraceCommand command = words;
     check(command);
+    const std::optional<std::int64_t> frame = frame_of_contours(command);
     const Work work = console.work(command.threads);
     const ImageInput images{command.image.path, console.noting(command.image.options)};
     for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), images)) console.warn(note);
@@ -123,8 +134,7 @@ void run(const TraceCommand& command, Console& console) {
         set.attributes = attributes_of(*segment);
     }
     if (!command.name.empty()) set.name = command.name;
-    if (command.read.frame && !has_extension(command.mask, ".seg.nrrd"))  // of which it chooses a layer
-        set_frame(set, static_cast<double>(*command.read.frame));
+    if (frame) set_frame(set, static_cast<double>(*frame));
 
     const WriteRtstructOptions write = rtstruct_options(command.holes, command.series, provenance_of(command, work));
     Outputs outputs;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur segment of contours drawn in several frames: masks of all frames, volumes, refusals."""
+import copy
 import csv
 import json
 import pathlib
@@ -331,14 +332,77 @@ def test_contours_of_a_structure_set_are_of_the_frame_whose_slices_they_refer_to
         "convert", tmp_path / "joined.dcm", tmp_path / "no.json", "--image", tmp_path / "json.nii.gz").stderr
     assert "which is read" in segment("all.nii.gz", tmp_path / "5.dcm", "--all-rois")
     assert numpy.array_equal(voxels(tmp_path / "all.nii.gz"), voxels(tmp_path / "fifth.nii.gz"))
-    assert f"the ROIs refer to several frames of {beats}: 1, 5; name one at a time with --roi" in refusal(
-        tmp_path / "joined.dcm", "--image", beats, "--all-rois", "--output", tmp_path / "no.nii.gz")
+    assert "which is read" not in segment("all.nii.gz", tmp_path / "joined.dcm", "--all-rois")
+    assert numpy.array_equal(voxels(tmp_path / "all.nii.gz"), voxels(tmp_path / "json.nii.gz"))
     del contours[0].ContourImageSequence
     one.save_as(tmp_path / "partly.dcm")
     result = kontur("segment", tmp_path / "partly.dcm", "--image", beats, "--volume", 1, "--output", tmp_path / "partly.nii.gz")
     assert result.returncode == 0, "all of one moment where a volume is chosen"
     result = kontur("segment", tmp_path / "partly.dcm", "--image", beats, "--output", tmp_path / "no.nii.gz")
     assert "the series holds several volumes" in result.stderr
+
+
+@pytest.fixture(name="two_rois")
+def two_rois_fixture(tmp_path, drawn_in_time):
+    """A ball drawn in frames 1 and 5, a core of half of its size likewise, and what was drawn in frame 1 alone."""
+    rois = pydicom.dcmread(tmp_path / "1.dcm")
+    other = pydicom.dcmread(tmp_path / "5.dcm")
+    still = copy.deepcopy(rois.ROIContourSequence[0])
+    rois.ROIContourSequence[0].ContourSequence.extend(other.ROIContourSequence[0].ContourSequence)
+    core = copy.deepcopy(rois.ROIContourSequence[0])
+    for contour in core.ContourSequence:
+        points = numpy.array(contour.ContourData, float).reshape(-1, 3)
+        points[:, :2] /= 2
+        contour.ContourData = [f"{c:.3f}" for c in points.ravel()]
+    for number, (name, roi) in enumerate({"Core": core, "Still": still}.items(), 2):
+        roi.ReferencedROINumber = number
+        rois.ROIContourSequence.append(roi)
+        item = copy.deepcopy(rois.StructureSetROISequence[0])
+        item.ROINumber, item.ROIName = number, name
+        rois.StructureSetROISequence.append(item)
+        observed = copy.deepcopy(rois.RTROIObservationsSequence[0])
+        observed.ObservationNumber = observed.ReferencedROINumber = number
+        rois.RTROIObservationsSequence.append(observed)
+    rois.StructureSetROISequence[0].ROIName = "Ball"
+    rois.save_as(tmp_path / "rois.dcm")
+    return tmp_path / "rois.dcm"
+
+
+def test_several_structures_over_time_become_labels_or_segments_of_all_frames(tmp_path, beats, two_rois):
+    alone = []
+    for number in (1, 2, 3):
+        kontur("segment", two_rois, "--roi", number, "--image", beats, "--output", tmp_path / f"{number}.nii.gz")
+        mask = voxels(tmp_path / f"{number}.nii.gz") != 0
+        alone.append(mask if number < 3 else numpy.repeat(mask[..., None], FRAMES, axis=3))
+    rois = ("--roi", "Core", "--roi", "Ball", "--image", beats)
+    said = kontur("segment", two_rois, *rois, "--output", tmp_path / "labels.nii.gz", "--report", tmp_path / "report.json", "--threads", 1)
+    assert said.returncode == 0, said.stderr
+    labels = nibabel.load(tmp_path / "labels.nii.gz")
+    assert labels.shape == alone[0].shape and labels.header["pixdim"][4] == pytest.approx(0.04)
+    assert labels.get_data_dtype() == numpy.uint8
+    assert numpy.array_equal(voxels(tmp_path / "labels.nii.gz"), numpy.where(alone[1], 1, 2 * alone[0]))
+    assert f"{(alone[0] & alone[1]).sum()} voxels of 'Ball' lie in 'Core', too" in said.stderr, "counted in all frames"
+    assert "2 structures in 8 frames" in said.stdout and "1 Core: largest in frame 1" in said.stdout
+    core, ball = json.loads((tmp_path / "report.json").read_text())["structures"]
+    assert [core["name"], ball["name"], ball["smallest_frame"]] == ["Core", "Ball", 5]
+    assert ball["volumes_ml"][2] == pytest.approx(alone[0][..., 2].sum() * SPACING**3 / 1000)
+    kontur("segment", two_rois, *rois, "--output", tmp_path / "again.nii.gz", "--threads", 3)
+    assert (tmp_path / "again.nii.gz").read_bytes() == (tmp_path / "labels.nii.gz").read_bytes()
+    result = kontur("segment", two_rois, "--all-rois", "--image", beats, "--output", tmp_path / "masks.dcm")
+    assert result.returncode == 0, result.stderr
+    assert "Error" not in subprocess.run(["dciodvfy", tmp_path / "masks.dcm"], capture_output=True, text=True).stderr
+    seg = pydicom.dcmread(tmp_path / "masks.dcm")
+    assert [segment.SegmentLabel for segment in seg.SegmentSequence] == ["Ball", "Core", "Still"]
+    seen = numpy.zeros((3, *alone[0].shape), bool)
+    for frame, pixels in zip(seg.PerFrameFunctionalGroupsSequence, seg.pixel_array):
+        segment, time, k = frame.FrameContentSequence[0].DimensionIndexValues
+        assert frame.SegmentIdentificationSequence[0].ReferencedSegmentNumber == segment
+        seen[segment - 1, :, :, k - 1, time - 1] = pixels.T
+    assert numpy.array_equal(seen, alone), "each keeps its voxels"
+    for words in (["--together"], ["--rtstruct", tmp_path / "no.dcm"]):
+        assert f"{words[0]} is of one moment" in refusal(two_rois, *rois, *words, "--output", tmp_path / "no.nii.gz")
+    result = kontur("segment", two_rois, *rois, "--output", tmp_path / "no.nrrd")
+    assert result.returncode == 69 and "are written as .nii or .nii.gz" in result.stderr
 
 
 def test_contours_of_two_frames_of_reference_are_refused_in_one_sentence(tmp_path, beats, drawn_in_time):
@@ -381,6 +445,11 @@ def test_trace_and_convert_say_which_frame_contours_are_of(tmp_path, cine, conto
     succeed("segment", tmp_path / "1.json", tmp_path / "5.json", "--image", cine, "--cycle", FRAMES, "--output", tmp_path / "again.nii.gz")
     one, other = (numpy.asarray(nibabel.load(tmp_path / f"{name}.nii.gz").dataobj) for name in ("masks", "again"))
     assert 2 * (one & other).sum() / (one.sum() + other.sum()) > 0.95
+    masks = nibabel.load(tmp_path / "masks.nii.gz")
+    nibabel.save(nibabel.Nifti1Image(numpy.asarray(masks.dataobj)[..., 4], masks.affine), tmp_path / "phase.nii.gz")
+    succeed("trace", tmp_path / "phase.nii.gz", "--frame", 5, "--output", tmp_path / "phase.json", "--name", "masks")
+    traced, expected = (json.loads((tmp_path / f"{name}.json").read_text()) for name in ("phase", "5"))
+    assert traced["planes"] == expected["planes"], "a mask of one phase becomes contours of that frame"
     succeed("convert", tmp_path / "1.json", tmp_path / "third.json", "--frame", 3)
     assert '"frame": 3' in (tmp_path / "third.json").read_text()
     result = kontur("convert", tmp_path / "1.json", tmp_path / "lost.mrk.json")

@@ -318,6 +318,25 @@ TEST(Nifti, MasksOfSeveralFramesComeBackEachWithTheTimeBetweenThem) {
     expect_error(ErrorKind::unsupported, "are written as .nii or .nii.gz", [&] { write_masks(folder / "c.nrrd", masks); });
 }
 
+TEST(Nifti, LabelMapsOfSeveralFramesComeBackEachWithTheNamesOfTheirLabels) {
+    const test::TemporaryFolder folder;
+    const fs::path path = folder.path() / "labels.nii.gz";
+    const Grid grid{{2, 1, 1}, {}};
+    const std::vector<Image> frames{{grid, std::vector<std::uint8_t>{1, 0}}, {grid, std::vector<std::uint8_t>{2, 1}}};
+    write_label_maps(path, frames, 0.05, {.names = {{1, "core", {}}, {2, "ball", {}}, {3, "not there", {}}}});
+    ASSERT_EQ(read_image_frames(path).count, 2);
+    EXPECT_NEAR(read_image_frames(path).step_s.value_or(0), 0.05, 1e-8);
+    for (std::int64_t n = 0; n < 2; ++n) {
+        ReadImageOptions of_frame;
+        of_frame.frame = n + 1;
+        EXPECT_EQ(read_image(path, of_frame).samples, frames[static_cast<std::size_t>(n)].samples);
+    }
+    const std::vector<Image> mixed{frames[0], {grid, std::vector<std::uint16_t>{2, 1}}};
+    expect_error(ErrorKind::invalid_input, "frame 2 has another grid or type", [&] { write_label_maps(path, mixed); });
+    expect_error(ErrorKind::invalid_input, "there is no label map to write", [&] { write_label_maps(path, {}); });
+    expect_error(ErrorKind::unsupported, ".nii.gz", [&] { write_label_maps(folder / "labels.nrrd", frames); });
+}
+
 TEST(Nifti, ReadsTheChosenFrame) {
     KONTUR_REQUIRE_DATA("11_4d_echo_itksnap/seg4d_11f_label1.nii.gz");
     const fs::path path = test::data_dir() / "11_4d_echo_itksnap/seg4d_11f_label1.nii.gz";

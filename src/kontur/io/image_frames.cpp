@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "kontur/base/counted.h"
@@ -181,6 +183,36 @@ void write_masks(const fs::path& path, std::span<const Mask> masks, std::optiona
     };
     if (label_value <= 255) write(static_cast<std::uint8_t>(label_value));
     else write(static_cast<std::uint16_t>(label_value));
+}
+
+void write_label_maps(const fs::path& path, std::span<const Image> frames, std::optional<double> step_s,
+                      const WriteImageOptions& options) {
+    check_frames_name(path);
+    if (frames.empty()) throw Error(ErrorKind::invalid_input, "there is no label map to write; at least 1 is needed");
+    std::set<std::int64_t> values;
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+        check_image(frames[n], "the label map of frame " + std::to_string(n + 1));
+        if (frames[n].grid != frames.front().grid || frames[n].samples.index() != frames.front().samples.index())
+            throw Error(ErrorKind::invalid_input, "the label map of frame " + std::to_string(n + 1) +
+                                                      " has another grid or type than that of frame 1");
+        for (const auto& [value, count] : count_labels(frames[n])) values.insert(value);
+    }
+    std::vector<NamedLabel> labels;
+    for (const LabelName& name : options.names)
+        if (values.contains(name.label)) labels.push_back({name.label, name.name, name.color});
+    std::visit(
+        [&]<typename Value>(const std::vector<Value>&) {
+            std::vector<Value> all;
+            for (const Image& frame : frames) {
+                const auto& its = std::get<std::vector<Value>>(frame.samples);
+                all.insert(all.end(), its.begin(), its.end());
+            }
+            ImageView view(frames.front().grid, std::span<const Value>(all));
+            view.provenance = options.provenance;
+            view.labels = std::move(labels);
+            write_nifti(path, view, {static_cast<std::int64_t>(frames.size()), step_s});
+        },
+        frames.front().samples);
 }
 
 }  // namespace kontur

@@ -120,16 +120,16 @@ std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, cons
                                          const DicomSeries& images, const WriteDicomSegOptions& options = {},
                                          const Work& work = {});
 
-/// One segment that moves: its mask at each volume of a series, in their order.
-struct MovingSegment {
-    std::span<const Mask> masks;
-    const DicomSegment& segment;
+/// Segments that move: of each its masks at the volumes of a series, in their order.
+struct MovingSegments {
+    const std::vector<std::span<const Mask>>& masks;
+    const std::vector<DicomSegment>& segments;
     const std::vector<DicomSeries>& volumes;
 };
 
-/// The same for a segment over time: each frame names the slice of its own volume, and its temporal position, which is a
-/// dimension of its own. Throws Error(invalid_input) also unless there is a mask for each volume.
-std::vector<std::string> write_dicom_seg_over_time(const std::filesystem::path& path, const MovingSegment& content,
+/// The same for segments over time: each frame names the slice of its own volume, and its temporal position, which is a
+/// dimension of its own. Throws Error(invalid_input) also unless each segment has a mask for each volume.
+std::vector<std::string> write_dicom_seg_over_time(const std::filesystem::path& path, const MovingSegments& content,
                                                    const WriteDicomSegOptions& options = {}, const Work& work = {});
 
 /// Throws Error(invalid_input) also when there are not as many masks as segments.

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom/cie_lab.h"
 #include "kontur/io/dicom/decimal_string.h"
@@ -406,6 +407,20 @@ std::vector<std::string> write_segments(const std::filesystem::path& path, const
     return notes;
 }
 
+void check_moving(const MovingSegments& content) {
+    check_same_count("sequences of masks", content.masks.size(), "segments", content.segments.size());
+    const auto is_inside = [](std::uint8_t v) { return v != 0; };
+    for (std::size_t s = 0; s < content.segments.size(); ++s) {
+        const std::span<const Mask> masks = content.masks[s];
+        if (masks.empty() || masks.size() != content.volumes.size())
+            throw invalid(fmt::format("there are {} masks for {} volumes in time; each needs one", masks.size(),
+                                      content.volumes.size()));
+        for (const Mask& mask : masks) check_mask(mask);
+        if (std::ranges::none_of(masks, [&](const Mask& m) { return std::ranges::any_of(m.values, is_inside); }))
+            throw invalid(fmt::format("the segment '{}' has no voxels", content.segments[s].label));
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const LabelledSegments& content,
@@ -440,13 +455,11 @@ std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path
     return write_segments(path, {segments, slices, voxels_of}, images, options, work);
 }
 
-std::vector<std::string> write_dicom_seg_over_time(const std::filesystem::path& path, const MovingSegment& content,
+std::vector<std::string> write_dicom_seg_over_time(const std::filesystem::path& path, const MovingSegments& content,
                                                    const WriteDicomSegOptions& options, const Work& work) {
-    const auto& [masks, segment, volumes] = content;
+    const auto& [masks, segments, volumes] = content;
     dcmtk::set_up();
-    if (masks.empty() || masks.size() != volumes.size())
-        throw invalid(
-            fmt::format("there are {} masks for {} volumes in time; each needs one", masks.size(), volumes.size()));
+    check_moving(content);
     std::vector<std::vector<DicomHeader>> times;
     for (const DicomSeries& volume : volumes) {
         times.push_back(read_slice_headers(volume));
@@ -454,13 +467,8 @@ std::vector<std::string> write_dicom_seg_over_time(const std::filesystem::path& 
             throw invalid(fmt::format("volume {} has {} slices, and volume 1 has {}", times.size(), times.back().size(),
                                       times.front().size()));
     }
-    const std::vector<DicomSegment> segments{segment};
-    const auto is_inside = [](std::uint8_t v) { return v != 0; };
-    if (std::none_of(masks.begin(), masks.end(), [&](const Mask& m) { return std::ranges::any_of(m.values, is_inside); }))
-        throw invalid(fmt::format("the segment '{}' has no voxels", segment.label));
-    for (const Mask& mask : masks) check_mask(mask);
-    const auto voxels_of = [&](std::size_t, std::size_t t) {
-        const Mask& mask = masks[t];
+    const auto voxels_of = [&](std::size_t s, std::size_t t) {
+        const Mask& mask = content.masks[s][t];
         return Lookup(mask.grid, grid_of(times[t])).values<bool>([&](std::size_t n) { return mask.values[n] != 0; });
     };
     return write_segments(path, {segments, times, voxels_of}, volumes.front(), options, work);

@@ -55,7 +55,7 @@ std::vector<std::string> write_dicom_seg_masks(const fs::path&, const MaskedSegm
                                                const WriteDicomSegOptions&, const Work&) {
     refuse();
 }
-std::vector<std::string> write_dicom_seg_over_time(const fs::path&, const MovingSegment&, const WriteDicomSegOptions&,
+std::vector<std::string> write_dicom_seg_over_time(const fs::path&, const MovingSegments&, const WriteDicomSegOptions&,
                                                    const Work&) {
     refuse();
 }

@@ -4,7 +4,7 @@
 
 Usage: bench/moving.py [--masks ED ES] [--only BODY,...] [--suggest]
 
-A cycle of 20 frames; nine slices across the body. Three drawings have whole frames, for which the linear interpolation between
+A cycle of 20 frames; nine slices across the body. Some drawings have whole frames, for which the linear interpolation between
 3D fits and the nearest frame are the peers; the others are contours spread over the cycle. Bodies: a ball that shrinks and grows
 with a heart's pace, one that breathes and is pushed, an ellipsoid that turns, a heart-like shell's inside, and, with --masks,
 what is between two real shapes. With --suggest: mean Dice of all frames when four slices are added to whole frames, where and when
@@ -115,17 +115,24 @@ def outline(body, z, t):
 
 
 def drawings(count):
-    """(frame from 0, slice) of each contour."""
+    """(frame from 0, slice) of each contour; half a slice lies between two."""
     every = range(count)
     five = (0, 4, 7, 10, 15)
     whole = {f"{len(frames)} whole frames": [(f, k) for f in frames for k in every]
              for frames in ((0, 7), (0, 7, 13), five)}
     return whole | {
+        "6 slices in each of 2 frames": [(f, k) for f in (0, 7) for k in np.linspace(0, count - 1, 6)],
         "2 whole frames, the middle slice in 4": [(f, k) for f in (0, 7) for k in every] + [(f, count // 2) for f in (3, 10, 13, 16)],
         "3 slices in each of 5 frames": [(f, k) for f in five for k in (0, count // 2, count - 1)],
         "3 other slices in each of 5 frames": [(f, k) for i, f in enumerate(five) for k in sorted({(2 * i + j) % count for j in (0, 3, 6)})],
         "20 single slices": [(f, [0, 8, 4, 2, 6, 1, 7, 3, 5][f % 9] % count) for f in range(FRAMES)],
     }
+
+
+def other_pairs(count):
+    """Two whole frames elsewhere in the cycle: what they do not show is chance."""
+    return {f"2 whole frames from frame {first + 1}": [(f, k) for f in (first, (first + 7) % FRAMES) for k in range(count)]
+            for first in (4, 8, 12, 16)}
 
 
 class Case:
@@ -142,7 +149,7 @@ class Case:
     def contours(self, drawn):
         found = []
         for f, k in drawn:
-            z = self.body.slices[k]
+            z = np.interp(k, range(len(self.body.slices)), self.body.slices)
             points = outline(self.body, z, f / FRAMES)
             if points is not None:
                 found.append(kontur.Contour(points, kontur.Plane([0, 0, z], [0, 0, 1]), frame=f + 1))
@@ -172,7 +179,8 @@ def nearest(whole, f):
 
 
 def rows_of(name, case):
-    for drawing, drawn in drawings(len(case.body.slices)).items():
+    count = len(case.body.slices)
+    for drawing, drawn in (drawings(count) | other_pairs(count)).items():
         made = kontur.segment_moving(case.contours(drawn), case.grid, range(1, FRAMES + 1), use_image="off")
         at = sorted({f for f, _ in drawn})
         left_out = [f for f in range(FRAMES) if f not in at] or list(range(FRAMES))

@@ -115,6 +115,20 @@ TEST(SumKernel, SameBytesForAnyNumberOfThreads) {
     }
 }
 
+TEST(SumKernel, TwoWeightsGiveTheSumsOfEitherToTheLastBit) {
+    std::mt19937 random = test::random_of_this_test();
+    const PointArrays centers(random_points(83, random)), targets(random_points(333, random));
+    const std::vector<double> first = random_weights(83, random), second = random_weights(83, random);
+    std::vector<double> expected(333), second_expected(333), sums(333), second_sums(333);
+    sum_far_kernel(centers, first, targets, expected, {.threads = 1});
+    sum_far_kernel(centers, second, targets, second_expected, {.threads = 1});
+    for (const int threads : {1, 2, 3}) {
+        sum_far_kernel_twice(centers, {first, second}, targets, {sums, second_sums}, {.threads = threads});
+        EXPECT_EQ(sums, expected) << threads;
+        EXPECT_EQ(second_sums, second_expected) << threads;
+    }
+}
+
 TEST(ImplicitFunction, GradientIsTheFiniteDifferenceOfTheValue) {
     std::mt19937 random = test::random_of_this_test();
     for (const Kernel kernel : kKernels) {

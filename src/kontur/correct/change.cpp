@@ -62,8 +62,9 @@ std::vector<double> SurfaceChange::values(std::span<const Vec3> positions, const
     }
     const PointArrays targets(scaled);
     std::vector<double> added(near.size()), removed(near.size());
-    if (!added_.empty()) sum_far_kernel(centers_, added_, targets, added, work);
-    if (!removed_.empty()) sum_far_kernel(centers_, removed_, targets, removed, work);
+    if (removed_.empty()) sum_far_kernel(centers_, added_, targets, added, work);
+    else if (added_.empty()) sum_far_kernel(centers_, removed_, targets, removed, work);
+    else sum_far_kernel_twice(centers_, {added_, removed_}, targets, {added, removed}, work);
     for (std::size_t n = 0; n < near.size(); ++n)
         values[near[n]] = fades[n] * (std::max(added[n], 0.0) + std::min(removed[n], 0.0));
     return values;

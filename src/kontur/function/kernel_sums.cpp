@@ -68,6 +68,23 @@ KONTUR_EVERY_INSTRUCTION_SET void sum_screened_far(const Sources& s, const Lanes
     sum_terms<ScreenedFar>(s, t, out);
 }
 
+/// With two weights for each centre.
+KONTUR_EVERY_INSTRUCTION_SET void sum_screened_far_twice(const Sources& s, const double* second, const Lanes& t,
+                                                         double* __restrict out, double* __restrict second_out) {
+    alignas(64) double sum[kLanes] = {}, second_sum[kLanes] = {};
+    for (std::size_t j = 0; j < s.count; ++j) {
+        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j], w2 = second[j];
+        for (int l = 0; l < kLanes; ++l) {
+            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
+            const double k = screened_kernel_far(std::sqrt(dx * dx + dy * dy + dz * dz));
+            sum[l] += w * k;
+            second_sum[l] += w2 * k;
+        }
+    }
+    std::copy_n(sum, kLanes, out);
+    std::copy_n(second_sum, kLanes, second_out);
+}
+
 KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
     sum_terms<Biharmonic>(s, t, out);
 }
@@ -211,6 +228,19 @@ void sum_kernel(const KernelSum& sum, const PointArrays& targets, std::span<doub
 void sum_far_kernel(const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
                     std::span<double> out, const Work& work) {
     sum_values(sum_screened_far, sources(centers, weights), targets, out, work);
+}
+
+void sum_far_kernel_twice(const PointArrays& centers, const WeightPair& weights, const PointArrays& targets,
+                          const SumPair& out, const Work& work) {
+    const Sources from = sources(centers, weights.first);
+    for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
+        Lanes lanes;
+        alignas(64) std::array<double, kLanes> first, second;
+        load(targets, begin, count, lanes);
+        sum_screened_far_twice(from, weights.second.data(), lanes, first.data(), second.data());
+        std::copy_n(first.begin(), count, out.first.begin() + static_cast<std::ptrdiff_t>(begin));
+        std::copy_n(second.begin(), count, out.second.begin() + static_cast<std::ptrdiff_t>(begin));
+    });
 }
 
 void sum_kernel_gradient(const KernelSum& sum, const PointArrays& targets, std::span<Vec3> out, const Work& work) {

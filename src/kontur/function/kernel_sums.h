@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kontur/base/geometry.h"
@@ -62,6 +63,13 @@ void sum_kernel(const KernelSum& sum, const PointArrays& targets, std::span<doub
 /// The same sums of the screened kernel k itself, at any distance; slower.
 void sum_far_kernel(const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
                     std::span<double> out, const Work& work);
+
+/// Two weights for each centre, and two sums for each target.
+using WeightPair = std::pair<std::span<const double>, std::span<const double>>;
+using SumPair = std::pair<std::span<double>, std::span<double>>;
+/// The sums of `sum_far_kernel` by either weights, to the last bit, for little more than one of them.
+void sum_far_kernel_twice(const PointArrays& centers, const WeightPair& weights, const PointArrays& targets,
+                          const SumPair& out, const Work& work);
 
 /// out[t] = gradient at targets[t] of sum_kernel's sum. At a centre the term of that centre is 0 (for phi = r by
 /// convention).

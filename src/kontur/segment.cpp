@@ -57,6 +57,8 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
     result.samples = sample_surface(surface, fitted.function, kSurfaceSamples, work);
     result.report.uncertainty =
         surface_uncertainty(gather_evidence(result.samples, drawing.contours, evidence_facts(result.report, grid), work));
+    if (std::optional<std::string> word = doubt(result.report.uncertainty))
+        result.report.warnings.push_back(std::move(*word));
     watch.lap("measure");
     result.report.estimated_memory_mb = memory_mb;
     result.report.seconds = std::move(seconds);

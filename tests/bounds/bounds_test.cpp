@@ -222,8 +222,8 @@ TEST(WideGaps, AreSpokenOfWhereOneGapIsMuchWiderThanThoseBesideIt) {
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_EQ(
         notes[0],
-        "contours 4 and 5 lie 9 mm apart, 3.0 times as far as the planes before and after them; an empty plane between "
-        "them would say that they are two bodies, a contour that they are one");
+        "contours 4 and 5 lie 9 mm apart, 3.0 times as far as the planes beside them; an empty plane between them would say "
+        "that they are two bodies, a contour that they are one");
 }
 
 TEST(WideGaps, AreNoneInAnEvenOrGrowingStackNorWhereTheDrawingSaysMore) {
@@ -233,6 +233,54 @@ TEST(WideGaps, AreNoneInAnEvenOrGrowingStackNorWhereTheDrawingSaysMore) {
     ContourSet parted = stack({0, 3, 6, 9, 18, 21, 24, 27});
     parted.empty_planes.push_back(make_plane(13.0 * kNormal, kNormal));
     EXPECT_TRUE(notes_of(parted).empty());
+}
+
+TEST(WideGaps, OfThreeSlicesAreSpokenOfWhereAPlaneMayHaveShownNothing) {
+    const std::vector<std::string> notes = notes_of(stack({0, 5, 15}));
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_NE(notes[0].find("contours 2 and 3 lie 10 mm apart, 2.0 times as far as the planes beside them"),
+              std::string::npos)
+        << notes[0];
+    EXPECT_EQ(notes_of(stack({0, 10, 15})).size(), 1u);
+    EXPECT_TRUE(notes_of(stack({0, 5, 10})).empty());
+    EXPECT_TRUE(notes_of(stack({0, 5, 14})).empty()) << "1.8 times";
+    EXPECT_TRUE(notes_of(stack({0, 5, 10, 20})).empty()) << "of four, the other two tell that the last one was left out";
+    EXPECT_EQ(notes_of(stack({0, 5, 10, 23})).size(), 1u);
+}
+
+/// Both sections of a ring about z, 40 mm from it, by each plane through z that stands at one of these angles.
+ContourSet ring_sections(const std::vector<double>& angles) {
+    ContourSet set;
+    for (const double angle : angles)
+        for (const double side : {-40.0, 40.0})
+            set.contours.push_back(test::circle(
+                {{}, {std::cos(angle), std::sin(angle), 0}, {-std::sin(angle), std::cos(angle), 0}, {0, 0, 1}}, 4, side, 0));
+    return set;
+}
+
+/// The same with two circles that cross each other far above.
+ContourSet with_a_ball(ContourSet set, double radius_mm) {
+    for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}})
+        set.contours.push_back(test::circle(make_plane({0, 0, 200}, normal), radius_mm, 60));
+    return set;
+}
+
+TEST(LoneOutlines, AreSpokenOfWhereTheyAreMoreThanASmallPart) {
+    const ContourSet two = ring_sections({0, 1.5});
+    const std::vector<std::string> notes = notes_of(two);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(
+        notes[0],
+        "4 of 4 outlines stand alone, the first of them contour 1: no other lies near, and how the object goes on from "
+        "there is a guess; a contour across them would say it");
+    EXPECT_EQ(notes_of(with_a_ball(two, 15)).size(), 1u);
+    EXPECT_TRUE(notes_of(with_a_ball(two, 20)).empty()) << "they are 7 % of what was drawn";
+}
+
+TEST(LoneOutlines, AreNoneWhereOthersCrossThemLieNearOrLeadOn) {
+    EXPECT_TRUE(notes_of(test::three_great_circles()).empty());
+    EXPECT_TRUE(notes_of(stack({0, 60, 120})).empty()) << "rings of a tube";
+    EXPECT_TRUE(notes_of(ring_sections({0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.4, 2.7, 3})).empty());
 }
 
 TEST(GroupedPlaces, FindThoseThatLookingAtEachOneFinds) {

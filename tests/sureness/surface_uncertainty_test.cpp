@@ -55,6 +55,17 @@ TEST(SurfaceUncertainty, PlanesStillToDrawAreCountedAsFarAsThatMeansAnything) {
     EXPECT_NE(sentence(known).find("; about 4 more planes to 0.98;"), std::string::npos) << sentence(known);
 }
 
+TEST(SurfaceUncertainty, AVolumeThatMayBeThreeTimesAnotherIsDoubted) {
+    SurfaceUncertainty wide;
+    EXPECT_FALSE(doubt(wide)) << "not known at all";
+    wide.is_known = true;
+    wide.volume_low_ml = 40;
+    wide.volume_high_ml = 119;
+    EXPECT_FALSE(doubt(wide));
+    wide.volume_high_ml = 121;
+    EXPECT_EQ(doubt(wide), "the volume is hardly known, it is between 40 and 121 ml; more planes would tell it");
+}
+
 TEST(SurfaceUncertainty, CountsAPlaneDrawnAgainOnce) {
     std::vector<Plane> planes = three_planes(kCenter);
     planes.back() = make_plane(kCenter + Vec3{0, 0, 0.1}, {0.01, 0, 1});  // of the first one, a little off

@@ -38,7 +38,7 @@ bool others_show_nothing(const std::vector<DrawnRegion>& regions, const TubeWay&
 void append_walls(const std::vector<DrawnRegion>& regions, const TubeWay& way, bool is_back, std::vector<Bound>& bounds) {
     const RegionPart &from = is_back ? way.to : way.from, &to = is_back ? way.from : way.to;
     const DrawnRegion &here = regions[from.region], &there = regions[to.region];
-    const Polygon2& line = here.section.outlines[from.probes.front().outline];
+    const Polygon2& line = here.section.outlines[from.outline()];
     const double belief = way.belief * way.chain;
     if (belief < kLeastBelief) return;
     const double radius = way.radius_mm(), scale = to.radius_mm / from.radius_mm;

@@ -7,6 +7,7 @@
 #include "kontur/bounds/between_bounds.h"
 #include "kontur/bounds/empty_planes.h"
 #include "kontur/bounds/end_bounds.h"
+#include "kontur/bounds/lone_outlines.h"
 #include "kontur/bounds/plane_bounds.h"
 #include "kontur/bounds/wall_bounds.h"
 #include "kontur/bounds/wide_gaps.h"
@@ -40,6 +41,8 @@ Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
                             "object there is a guess from its width",
                             regions[r].section.contours.front() + 1));
     }
+    if (result.notes.empty())
+        if (std::optional<std::string> note = lone_outlines_note(regions, ways)) result.notes.push_back(std::move(*note));
     if (std::optional<std::string> note = wide_gap_note(planes, regions)) result.notes.push_back(std::move(*note));
     const std::vector<Bound> between = between_bounds(regions, ways);
     result.bounds.insert(result.bounds.end(), between.begin(), between.end());

@@ -25,7 +25,7 @@ struct Bound {
 
 struct Bounds {
     std::vector<Bound> bounds;
-    std::vector<std::string> notes;  ///< words on a thickness and a gap that are guesses, contours counted from 1
+    std::vector<std::string> notes;  ///< words on what is a guess: a thickness, a gap, outlines that stand alone
 };
 
 /// What planes say of the object beside the lines. There are five sources: a drawn plane, which shows where the object is

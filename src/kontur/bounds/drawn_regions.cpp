@@ -23,15 +23,8 @@ std::vector<Vec3> places_of(const Section& section, const std::vector<Probe>& in
 }
 
 void append_crossings(const Section& other, DrawnRegion& region) {
-    const Plane& plane = region.section.plane;
-    for (const Polygon2& outline : other.outlines)
-        for_each_edge(outline, [&](const Point2& from, const Point2& to) {
-            const Vec3 a = other.plane.from_uv(from), b = other.plane.from_uv(to);
-            const double before = plane.distance_to(a), after = plane.distance_to(b);
-            if ((before > 0) == (after > 0)) return;
-            const Point2 at = plane.to_uv(a + before / (before - after) * (b - a));
-            if (!region.search.contains(at)) region.crossings.push_back({at, region.search.clearance(at)});
-        });
+    for (const Point2& at : crossings_with(region.section.plane, other))
+        if (!region.search.contains(at)) region.crossings.push_back({at, region.search.clearance(at)});
 }
 
 }  // namespace
@@ -53,6 +46,17 @@ void GroupedPlaces::group(std::size_t begin, std::size_t end) {
     std::nth_element(at(begin), at(middle), at(end), [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
     group(begin, middle);
     group(middle, end);
+}
+
+std::vector<Point2> crossings_with(const Plane& plane, const Section& other) {
+    std::vector<Point2> crossings;
+    for (const Polygon2& outline : other.outlines)
+        for_each_edge(outline, [&](const Point2& from, const Point2& to) {
+            const Vec3 a = other.plane.from_uv(from), b = other.plane.from_uv(to);
+            const double before = plane.distance_to(a), after = plane.distance_to(b);
+            if ((before > 0) != (after > 0)) crossings.push_back(plane.to_uv(a + before / (before - after) * (b - a)));
+        });
+    return crossings;
 }
 
 std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& work) {

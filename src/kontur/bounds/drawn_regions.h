@@ -61,6 +61,9 @@ struct DrawnRegion {
     std::vector<OutsideCrossing> crossings;
 };
 
+/// Where the lines of a section cross another plane, in its (u, v).
+std::vector<Point2> crossings_with(const Plane& plane, const Section& other);
+
 /// The regions of all drawn planes. `planes` must outlive them.
 std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& work = {});
 

@@ -24,27 +24,6 @@ constexpr double kTooNear = 2.8;
 /// .918.
 constexpr double kStraight = 0.9;
 
-std::vector<RegionPart> parts_of(const std::vector<DrawnRegion>& regions) {
-    std::vector<RegionPart> parts;
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-        const std::vector<double> areas = areas_without_holes(regions[r].section);
-        for (std::size_t o = 0; o < areas.size(); ++o) {
-            RegionPart part{r, {}, std::sqrt(areas[o] / M_PI), {}};
-            Point2 sum{};
-            for (const Probe& probe : regions[r].inside)
-                if (probe.outline == o) {
-                    part.probes.push_back(probe);
-                    sum = {sum[0] + probe.at[0], sum[1] + probe.at[1]};
-                }
-            if (part.probes.empty()) continue;
-            const auto count = static_cast<double>(part.probes.size());
-            part.center = regions[r].section.plane.from_uv({sum[0] / count, sum[1] / count});
-            parts.push_back(std::move(part));
-        }
-    }
-    return parts;
-}
-
 bool share_a_ring(const TubeWay& a, const TubeWay& b) {
     const auto is_same = [](const RegionPart& p, const RegionPart& q) {
         return p.region == q.region && distance(p.center, q.center) == 0;
@@ -54,7 +33,7 @@ bool share_a_ring(const TubeWay& a, const TubeWay& b) {
 
 class Tubes {
 public:
-    explicit Tubes(const std::vector<DrawnRegion>& regions) : regions_(regions), parts_(parts_of(regions)) {
+    explicit Tubes(const std::vector<DrawnRegion>& regions) : regions_(regions), parts_(region_parts(regions)) {
         for (const double sign : {1.0, -1.0})
             for (std::size_t p = 0; p < parts_.size(); ++p) (sign > 0 ? above_ : below_).push_back(nearest(p, sign));
     }
@@ -141,6 +120,27 @@ private:
 };
 
 }  // namespace
+
+std::vector<RegionPart> region_parts(const std::vector<DrawnRegion>& regions) {
+    std::vector<RegionPart> parts;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const std::vector<double> areas = areas_without_holes(regions[r].section);
+        for (std::size_t o = 0; o < areas.size(); ++o) {
+            RegionPart part{r, {}, std::sqrt(areas[o] / M_PI), {}};
+            Point2 sum{};
+            for (const Probe& probe : regions[r].inside)
+                if (probe.outline == o) {
+                    part.probes.push_back(probe);
+                    sum = {sum[0] + probe.at[0], sum[1] + probe.at[1]};
+                }
+            if (part.probes.empty()) continue;
+            const auto count = static_cast<double>(part.probes.size());
+            part.center = regions[r].section.plane.from_uv({sum[0] / count, sum[1] / count});
+            parts.push_back(std::move(part));
+        }
+    }
+    return parts;
+}
 
 double TubeWay::distance_mm(const Vec3& place) const {
     double least = std::numeric_limits<double>::infinity();

@@ -16,9 +16,14 @@ constexpr double kHidden = 0.35;
 struct RegionPart {
     std::size_t region;
     Vec3 center;
-    double radius_mm;  ///< of the circle with its area
-    std::vector<Probe> probes;
+    double radius_mm;           ///< of the circle with its area
+    std::vector<Probe> probes;  ///< at least one
+
+    std::size_t outline() const { return probes.front().outline; }
 };
+
+/// Of all planes; holes, and what is too small for a probe, are none.
+std::vector<RegionPart> region_parts(const std::vector<DrawnRegion>& regions);
 
 /// The way of a tube between two of its rings: a cubic curve that leaves both planes at right angles where these are tilted
 /// against each other, else a straight one.

@@ -9,7 +9,7 @@
 
 namespace kontur {
 
-/// A word on two parallel sections over each other that are much farther apart than those before and after them, contours
+/// A word on two parallel sections over each other that are much farther apart than those beside them, contours
 /// counted from 1: the drawing does not tell whether they are one body. None where a plane between them is given as empty.
 std::optional<std::string> wide_gap_note(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions);
 

@@ -129,4 +129,13 @@ std::string sentence(const SurfaceUncertainty& u) {
     return text + "; what no contour touches is not counted";
 }
 
+std::optional<std::string> doubt(const SurfaceUncertainty& u) {
+    // Of 252 organ drawings 5 are so wide, of Dice .39 to .71, and of 220 random solids 7, of .46 to .85. Twice names 1 and
+    // 1; half is wider than 52 of the solids are known, some of them of Dice .95.
+    constexpr double kWide = 3;
+    if (!u.is_known || u.volume_high_ml < kWide * u.volume_low_ml) return {};
+    return fmt::format("the volume is hardly known, it is between {} and {} ml; more planes would tell it",
+                       rounded(u.volume_low_ml), rounded(u.volume_high_ml));
+}
+
 }  // namespace kontur

@@ -41,4 +41,7 @@ std::vector<double> half_widths_mm(const SurfaceEvidence& evidence, const std::v
 /// "expected Dice 0.97 (0.95 to 0.98), volume 98 ml (92 to 105); about 3 more planes to 0.98", or that it is not known.
 std::string sentence(const SurfaceUncertainty& uncertainty);
 
+/// A word where the volume's interval is so wide that its upper end is three times its lower one; else none.
+std::optional<std::string> doubt(const SurfaceUncertainty& uncertainty);
+
 }  // namespace kontur

@@ -88,6 +88,11 @@ void RoiResults::add(const SegmentCommand& command, FittedRoi one, ContourSet ou
     structures.masks.push_back(std::move(mask));
 }
 
+void put_left_out(const std::vector<LeftOutRoi>& left_out, Facts& report) {
+    for (const LeftOutRoi& one : left_out)
+        report["left_out"].push_back({{"name", one.roi.name}, {"number", one.roi.number}, {"reason", one.reason}});
+}
+
 Facts roi_report(const RoiResults& result, const Provenance& provenance) {
     Facts structures = Facts::array(), derived = Facts::array();
     for (const FittedRoi& one : result.all) {
@@ -108,8 +113,7 @@ Facts roi_report(const RoiResults& result, const Provenance& provenance) {
                  {"structures", structures},
                  {"warnings", result.notes}};
     if (!derived.empty()) report["derived"] = derived;
-    for (const LeftOutRoi& one : result.left_out)
-        report["left_out"].push_back({{"name", one.roi.name}, {"number", one.roi.number}, {"reason", one.reason}});
+    put_left_out(result.left_out, report);
     if (result.together)
         report["together"] = {{"pairs", pairs_of(result.together->pairs, result.all)},
                               {"contested_voxels", result.together->contested_voxels},

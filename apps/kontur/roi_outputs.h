@@ -51,6 +51,9 @@ struct RoiResults {
     void add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box);
 };
 
+/// Which of --all-rois are in no output, and why.
+void put_left_out(const std::vector<LeftOutRoi>& left_out, Facts& report);
+
 /// The content of --report.
 Facts roi_report(const RoiResults& results, const Provenance& provenance);
 

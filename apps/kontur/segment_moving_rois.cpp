@@ -50,6 +50,9 @@ void add(MovingRois& result, FittedRoi one, MovingSegmentation&& moving, const S
     result.reports.push_back({{"label", one.segment.number}, {"name", one.segment.label}});
     result.reports.back().update(moving_report(moving, one.provenance));
     result.extremes.push_back(fmt::format("{} {}: {}", one.segment.number, one.segment.label, extremes_of(moving.volumes)));
+    if (moving.moments.size() == 1)
+        moving.warnings.push_back(
+            fmt::format("drawn in frame {:g} alone, and the same in all", moving.moments.front().time));
     for (const std::string& warning : moving.warnings)
         result.notes.push_back(fmt::format("{}: {}", one.segment.label, warning));
     const Grid grid = moving.masks.front().grid;
@@ -123,13 +126,13 @@ void segment_moving_rois(const SegmentCommand& command, const RoiDrawings& drawi
                                               : write_labels(path, result, input.frames.step_s, provenance),
                           std::back_inserter(result.notes));
     });
+    Facts report{{"version", KONTUR_VERSION},
+                 {"provenance", provenance_facts(provenance)},
+                 {"structures", result.reports},
+                 {"warnings", result.notes}};
+    put_left_out(drawings.left_out, report);
     if (!command.report.empty())
-        outputs.write(command.report, [&](const fs::path& path) {
-            write_file_atomically(path, to_json_text({{"version", KONTUR_VERSION},
-                                                      {"provenance", provenance_facts(provenance)},
-                                                      {"structures", result.reports},
-                                                      {"warnings", result.notes}}));
-        });
+        outputs.write(command.report, [&](const fs::path& path) { write_file_atomically(path, to_json_text(report)); });
     outputs.commit();
     for (const std::string& note : result.notes) console.warn(note);
     std::string text = fmt::format("{}: {} in {}\n", command.output.string(), counted(result.all.size(), "structure"),

@@ -151,6 +151,27 @@ TEST(MovingSession, VolumesAndFilesAreThoseOfTheLibrary) {
     EXPECT_EQ(here.session->exported("volumes.csv", id).bytes, volumes_csv(made.times, made.volumes, made.moments, 0.05));
 }
 
+TEST(MovingSession, LabelsOfAllFramesAreTheLabelMapsOfEach) {
+    BeatingSession here;
+    here.two_frames();
+    const Id still = here.call({{"call", "structure.add"}})["result"]["structure"]["id"];
+    here.draw(still, 9, 3);
+    const Id small = here.call({{"call", "structure.add"}})["result"]["structure"]["id"];
+    here.draw(small, 8.5, std::nullopt);
+    here.draw(small, 9.5, 4);
+    const auto path = here.folder.path() / "labels.nii.gz";
+    const auto labels_in = [&](const Download& file, std::optional<std::int64_t> frame) {
+        std::ofstream(path, std::ios::binary) << file.bytes;
+        ReadImageOptions options;
+        options.frame = frame;
+        return read_image(path, options).samples;
+    };
+    const Download all = here.session->exported("label_frames.nii.gz", {});
+    EXPECT_EQ(all.file_name, "flat_label_frames.nii.gz");
+    for (int time = 0; time < kTimes; ++time)
+        EXPECT_EQ(labels_in(all, time + 1), labels_in(here.session->exported("labels.nii.gz", {}, {}, time), {})) << time;
+}
+
 TEST(MovingSession, EachFrameHasItsSurface) {
     BeatingSession here;
     const Id id = here.two_frames();

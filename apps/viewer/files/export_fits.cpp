@@ -120,24 +120,33 @@ FittedStructure ExportFits::in_time(const State& state, Id structure, const FitW
         put_review(moving, state);
         return moving;
     }
-    const std::shared_ptr<const Image> image = image_at_(*drawn_times(state, structure).begin());
-    FittedStructure fit = fit_structure(only(state, structure), structure, *image, wish.mesh, work);
-    fit.shares_border = false;
-    return fit;
+    const State own = only(state, structure);
+    const Fits fits = kept(own, wish.mesh, [&] {
+        const std::shared_ptr<const Image> image = image_at_(*drawn_times(state, structure).begin());
+        return std::vector{fit_structure(own, structure, *image, wish.mesh, work)};
+    });
+    return fits->front();
 }
 
 std::shared_ptr<const FittedMotion> ExportFits::motion(const State& state, Id structure, const Work& work) {
     const State own = only(state, structure);
     {
         const std::scoped_lock lock(mutex_);
-        if (motion_ && is_same(motion_of_, own)) return motion_;
+        const auto known = std::ranges::find_if(motions_, [&](const auto& one) { return is_same(one.state, own); });
+        if (known != motions_.end()) {
+            motions_.splice(motions_.begin(), motions_, known);
+            return known->motion;
+        }
     }
     FramesToSegment frames(image_->grid);
     if (own.use_image) frames.image_at = [this](double frame) { return image_at_(static_cast<int>(frame) - 1); };
     auto motion = std::make_shared<const FittedMotion>(own, structure, frames, times_, work);
     const std::scoped_lock lock(mutex_);
-    motion_of_ = own;
-    motion_ = motion;
+    motions_.push_front({own, motion});
+    std::size_t bytes = 0;
+    std::erase_if(motions_, [&](const MotionOfState& one) {
+        return (bytes += one.motion->bytes()) > kMostBytes && one.motion != motion;
+    });
     return motion;
 }
 

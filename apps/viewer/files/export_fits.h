@@ -49,6 +49,10 @@ private:
         bool mesh;
         Fits fits;
     };
+    struct MotionOfState {
+        State state;
+        std::shared_ptr<const FittedMotion> motion;
+    };
     Fits at_opened_time(const State& state, bool mesh, const Work& work);
     Fits drawn_at_opened_time(const State& state, bool mesh, const Work& work);
     std::shared_ptr<const FittedStructure> derived(const State& state, Id structure, bool mesh, const Work& work);
@@ -61,9 +65,8 @@ private:
     const int times_;
     const std::shared_ptr<BodyOutlines> bodies_;
     std::mutex mutex_;
-    std::list<FitsOfState> kept_;  ///< the last used first
-    State motion_of_;              ///< what this was fitted to:
-    std::shared_ptr<const FittedMotion> motion_;
+    std::list<FitsOfState> kept_;       ///< the last used first
+    std::list<MotionOfState> motions_;  ///< likewise
 };
 
 }  // namespace kontur::viewer

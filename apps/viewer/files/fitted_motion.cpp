@@ -49,6 +49,8 @@ std::string FittedMotion::volumes_csv(const std::optional<double>& step_s) const
     return kontur::volumes_csv(frames_, volume_curve(std::move(volumes), std::move(intervals)), moments_, step_s);
 }
 
+std::size_t FittedMotion::bytes() const { return 2 * moments_.size() * moments_.front().segmentation.mask.values.size(); }
+
 Provenance FittedMotion::provenance() const {
     const SegmentReport& report = moments_.front().segmentation.report;
     return kontur::provenance(set_, moments_.front().segmentation.mask.grid, report);

@@ -26,6 +26,7 @@ public:
     /// As `kontur segment --volumes` writes it.
     std::string volumes_csv(const std::optional<double>& step_s) const;
     Provenance provenance() const;
+    std::size_t bytes() const;  ///< about as many as it takes
     const Structure& structure() const { return structure_; }
     const ContourSet& set() const { return set_; }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 #include "kontur/base/counted.h"
@@ -16,6 +15,7 @@
 #include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
+#include "kontur/io/image_frames.h"
 #include "kontur/io/images/nrrd.h"
 #include "kontur/io/images/segment_tags.h"
 #include "kontur/io/meshes/mesh.h"
@@ -75,35 +75,6 @@ Provenance together(const All& all, const std::vector<std::int64_t>& numbers) {
                 provenance.emplace_back(fmt::format("{}_{}", name, numbers[n]), value);
         }
     return provenance;
-}
-
-std::vector<std::string> write_labels(const fs::path& path, const All& all) {
-    std::vector<std::uint16_t> labels(all.front().segmentation.mask.values.size());  // places in the list, from 1
-    std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared;  // of the larger and the smaller structure
-    for (const std::size_t n : by_size(all)) {
-        const std::vector<std::uint8_t>& inside = all[n].segmentation.mask.values;
-        for (std::size_t v = 0; v < labels.size(); ++v) {
-            if (inside[v] == 0) continue;
-            if (labels[v] != 0) ++shared[{labels[v] - 1u, n}];
-            labels[v] = static_cast<std::uint16_t>(n + 1);
-        }
-    }
-    const std::vector<std::int64_t> values = label_values_of(all);
-    for (std::uint16_t& label : labels)
-        if (label != 0) label = static_cast<std::uint16_t>(values[label - 1u]);
-    std::vector<LabelName> names;
-    for (std::size_t n = 0; n < all.size(); ++n)
-        names.push_back({values[n], all[n].structure.name, rgb(all[n].structure.color)});
-    Image image{all.front().segmentation.mask.grid, labels};
-    if (std::ranges::max(values) <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
-    write_image(path, image, names, together(all, values));
-    std::vector<std::string> notes;
-    for (const auto& [pair, voxels] : shared)
-        notes.push_back(fmt::format("{} in {} and in {}: in the label map {} to {}, the smaller one",
-                                    voxels == 1 ? "1 voxel lies" : counted(voxels, "voxel") + " lie",
-                                    all[pair.first].structure.name, all[pair.second].structure.name,
-                                    voxels == 1 ? "it belongs" : "they belong", all[pair.second].structure.name));
-    return notes;
 }
 
 /// On layers, where voxels lie in several.
@@ -400,6 +371,43 @@ Provenance provenance_of(const FittedStructure& one) {
                                     mask.confirmed_planes.size(), one.corrected->report.image ? "used" : "none")}};
 }
 
+void LabelFrames::add(const All& all) {
+    std::vector<std::uint16_t> labels(all.front().segmentation.mask.values.size());  // places in the list, from 1
+    for (const std::size_t n : by_size(all)) {
+        const std::vector<std::uint8_t>& inside = all[n].segmentation.mask.values;
+        for (std::size_t v = 0; v < labels.size(); ++v) {
+            if (inside[v] == 0) continue;
+            if (labels[v] != 0) ++shared_[{labels[v] - 1u, n}];
+            labels[v] = static_cast<std::uint16_t>(n + 1);
+        }
+    }
+    const std::vector<std::int64_t> values = label_values_of(all);
+    for (std::uint16_t& label : labels)
+        if (label != 0) label = static_cast<std::uint16_t>(values[label - 1u]);
+    Image& image = frames_.emplace_back(Image{all.front().segmentation.mask.grid, labels});
+    if (std::ranges::max(values) <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
+    if (frames_.size() > 1) return;
+    options_.provenance = together(all, values);
+    for (std::size_t n = 0; n < all.size(); ++n)
+        options_.names.push_back({values[n], all[n].structure.name, rgb(all[n].structure.color)});
+}
+
+void LabelFrames::write_first(const fs::path& path) const { write_image(path, frames_.front(), options_); }
+
+void LabelFrames::write(const fs::path& path, std::optional<double> step_s) const {
+    write_label_maps(path, frames_, step_s, options_);
+}
+
+std::vector<std::string> LabelFrames::notes() const {
+    std::vector<std::string> notes;
+    for (const auto& [pair, voxels] : shared_)
+        notes.push_back(fmt::format("{} in {} and in {}: in the label map {} to {}, the smaller one",
+                                    voxels == 1 ? "1 voxel lies" : counted(voxels, "voxel") + " lie",
+                                    options_.names[pair.first].name, options_.names[pair.second].name,
+                                    voxels == 1 ? "it belongs" : "they belong", options_.names[pair.second].name));
+    return notes;
+}
+
 bool is_export_of_all(std::string_view name) {
     return std::find(kExportsOfAll.begin(), kExportsOfAll.end(), name) != kExportsOfAll.end();
 }
@@ -410,7 +418,10 @@ std::vector<std::string> write_structures(const fs::path& path, std::string_view
     if (name == "rtstruct.dcm") return write_regions(path, all, series_of(images, name), work);
     if (name.ends_with(".zip")) return write_meshes(path, name, all), std::vector<std::string>{};
     if (name.ends_with(".seg.nrrd")) return write_layers(path, all), std::vector<std::string>{};
-    return write_labels(path, all);
+    LabelFrames labels;
+    labels.add(all);
+    labels.write_first(path);
+    return labels.notes();
 }
 
 }  // namespace kontur::viewer

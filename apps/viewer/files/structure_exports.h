@@ -2,16 +2,20 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kontur/base/work.h"
 #include "kontur/correct_mask.h"
 #include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/image.h"
 #include "kontur/segment.h"
 #include "viewer/model/model.h"
 
@@ -52,9 +56,27 @@ std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& st
 /// One of them; only where borders are shared are the others fitted, too.
 FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work);
 
-/// Writes the file of this name, one of `kExportsOfAll`. A label map has the values of
-/// `label_values` and, where the format has room, names; a voxel in several structures belongs to the smallest, so that a
-/// lesion in an organ is not lost; in DICOM objects it belongs to all.
+/// Label maps of all structures, one for each time. Values are those of `label_values`; a voxel in several structures
+/// belongs to the smallest of them at that time, so that a lesion in an organ is not lost.
+class LabelFrames {
+public:
+    /// All structures at the next time, the same ones each time.
+    void add(const std::vector<FittedStructure>& all);
+
+    /// The first one in any format of a label map; all, as write_label_maps does. With names, where there is room.
+    void write_first(const std::filesystem::path& path) const;
+    void write(const std::filesystem::path& path, std::optional<double> step_s) const;
+    /// What the user should know, one sentence each: how many voxels lie in two structures.
+    std::vector<std::string> notes() const;
+
+private:
+    std::vector<Image> frames_;
+    WriteImageOptions options_;
+    std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared_;  ///< of the larger and the smaller structure
+};
+
+/// Writes the file of this name, one of `kExportsOfAll`. A label map is that of LabelFrames; in DICOM objects a voxel
+/// in several structures belongs to all.
 /// Returns what the user should know, one sentence each. Throws Error(invalid_input) for a DICOM object without DICOM
 /// images.
 std::vector<std::string> write_structures(const std::filesystem::path& path, std::string_view name,

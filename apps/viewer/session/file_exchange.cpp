@@ -38,6 +38,7 @@ namespace fs = std::filesystem;
 constexpr std::array kMasks{"mask.nii.gz", "mask.nii", "mask.nrrd", "mask.seg.nrrd", "mask.mha"};
 constexpr std::string_view kMasksOfAll = "masks.nii.gz";  ///< at all times
 constexpr std::string_view kVolumes = "volumes.csv";
+constexpr std::string_view kLabelsOfAll = "label_frames.nii.gz";  ///< of all structures at all times
 constexpr std::array kMeshes{"mesh.stl", "mesh.ply", "mesh.obj"};
 constexpr std::array kContours{"contours.json", "contours.mrk.json"};
 
@@ -203,6 +204,16 @@ void write_motion(SessionState& s, const State& now, const ExportChoice& choice,
     write_masks(path, motion->masks(), s.image.frame_step_s, 1, motion->provenance());
 }
 
+void write_label_frames(SessionState& s, const State& now, const fs::path& path, const Work& work) {
+    if (s.image.times.count() < 2)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the image has 1 frame; {} is of an image with several", kLabelsOfAll));
+    LabelFrames labels;
+    for (int time = 0; time < s.image.times.count(); ++time) labels.add(*s.fits.all(now, work, {time, false}));
+    labels.write(path, s.image.frame_step_s);
+    for (const std::string& note : labels.notes()) s.pages.notice("info", note);
+}
+
 /// With their frames where the image has several, and the cycle.
 ContourSet contours_in_time(const State& now, Id structure) {
     ContourSet set = contour_set(now, structure);  // with frames, if it moves
@@ -258,6 +269,9 @@ Download exported(SessionState& s, const ExportChoice& choice, const StopToken& 
         const ExportFits::Fits all = s.fits.all(now, line.work(stop), {choice.time, name.ends_with(".zip")});
         for (const std::string& note : write_structures(path, name, *all, s.image.series, line.work(stop)))
             s.pages.notice("info", note);
+        download.file_name = fmt::format("{}_{}", name_of_image(s), name);
+    } else if (name == kLabelsOfAll) {
+        write_label_frames(s, s.state(), path, line.work(stop));
         download.file_name = fmt::format("{}_{}", name_of_image(s), name);
     } else {
         if (!choice.structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));

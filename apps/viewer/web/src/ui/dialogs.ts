@@ -70,6 +70,7 @@ const OF_ALL: [string, string, string][] = [
   ["meshes.ply.zip", "Surfaces, PLY", ".zip"],
   ["views.png", "All views as they are seen", ".png"],
 ];
+const LABEL_FRAMES: [string, string, string] = ["label_frames.nii.gz", "Label map of all frames, NIfTI", ".nii.gz"];
 const SEEN = "views.png";
 const OF_ALL_IN_DICOM: [string, string, string][] = [
   ["seg.dcm", "DICOM SEG", ".dcm"],
@@ -145,7 +146,7 @@ export function openExport({ http, project, editor, hasDicom, archive, snapshot,
   const showFrames = () => void (frames.hidden = !project.motions.has(chosen() ?? 0));
   structure.addEventListener("change", showFrames);
   showFrames();
-  const files = [...OF_ALL, ...(hasDicom() ? OF_ALL_IN_DICOM : [])];
+  const files = [...OF_ALL, ...(project.motions.size > 0 ? [LABEL_FRAMES] : []), ...(hasDicom() ? OF_ALL_IN_DICOM : [])];
   const all = el(
     "div",
     { class: "export-group" },

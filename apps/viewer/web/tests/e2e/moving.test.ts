@@ -183,6 +183,7 @@ describe("a heart that beats", () => {
     const { page } = viewer;
     const masks = await viewer.export("masks.nii.gz");
     assert.equal(masks.name, "beating_Structure_1.nii.gz");
+    assert.equal((await viewer.export("label_frames.nii.gz")).name, "beating_label_frames.nii.gz");
     const table = (await viewer.export("volumes.csv")).bytes.toString().trim().split("\n");
     assert.equal(table.length, FRAMES + 1);
     assert.equal(table[0], "frame,time_s,volume_ml,contours,phase,low_ml,high_ml");

@@ -233,6 +233,9 @@ TEST(WideGaps, AreNoneInAnEvenOrGrowingStackNorWhereTheDrawingSaysMore) {
     ContourSet parted = stack({0, 3, 6, 9, 18, 21, 24, 27});
     parted.empty_planes.push_back(make_plane(13.0 * kNormal, kNormal));
     EXPECT_TRUE(notes_of(parted).empty());
+    ContourSet tilted = stack({0, 3, 6, 9, 18, 21, 24, 27});
+    tilted.contours.push_back(test::circle(make_plane(13.5 * kNormal, kNormal + Vec3{0.2, 0, 0}), 10, 60));
+    EXPECT_TRUE(notes_of(tilted).empty());
 }
 
 TEST(WideGaps, OfThreeSlicesAreSpokenOfWhereAPlaneMayHaveShownNothing) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace kontur {
 namespace {
@@ -28,6 +29,15 @@ bool any_empty_ahead(const ContourSet& set, const Plane& plane, double distance_
     });
 }
 
+/// Whether planes that are tilted against the two show the object in the middle half of the gap.
+bool any_shown_ahead(const std::vector<DrawnRegion>& regions, const Plane& plane, double distance_mm) {
+    return std::ranges::any_of(regions, [&](const DrawnRegion& other) {
+        return std::ranges::any_of(other.places.all(), [&](const Vec3& place) {
+            return std::abs(plane.distance_to(place) / distance_mm - 0.5) < 0.25;
+        });
+    });
+}
+
 /// The section ahead of a region, and how many times as far away as those before and after, of which one may be missing.
 struct WideGap {
     const Section* section;
@@ -35,7 +45,8 @@ struct WideGap {
     double times;
 };
 
-std::optional<WideGap> wide_gap(const DrawnPlanes& planes, const DrawnRegion& region) {
+std::optional<WideGap> wide_gap(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions,
+                                const DrawnRegion& region) {
     const Plane& plane = region.section.plane;
     const auto before = planes.next(plane, -1), next = planes.next(plane, 1);
     if (!next) return {};
@@ -45,7 +56,7 @@ std::optional<WideGap> wide_gap(const DrawnPlanes& planes, const DrawnRegion& re
     const double beside = std::max(before ? before->distance_mm : 0, after ? after->distance_mm : 0);
     const double times = next->distance_mm / beside;
     if (times < (planes.sections.size() == 3 ? kWideOfThree : kWide) || !overlap(region, *next->section) ||
-        any_empty_ahead(planes.set, plane, next->distance_mm))
+        any_empty_ahead(planes.set, plane, next->distance_mm) || any_shown_ahead(regions, plane, next->distance_mm))
         return {};
     return WideGap{next->section, next->distance_mm, times};
 }
@@ -54,7 +65,7 @@ std::optional<WideGap> wide_gap(const DrawnPlanes& planes, const DrawnRegion& re
 
 std::optional<std::string> wide_gap_note(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions) {
     for (const DrawnRegion& region : regions)
-        if (const auto gap = wide_gap(planes, region))
+        if (const auto gap = wide_gap(planes, regions, region))
             return fmt::format(
                 "contours {} and {} lie {:.3g} mm apart, {:.1f} times as far as the planes beside them; an "
                 "empty plane between them would say that they are two bodies, a contour that they "

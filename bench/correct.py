@@ -9,8 +9,8 @@ Methods: slices, blended, axial, free (13 directions), image (axial, with the im
 --drop-loose: the corrector takes away pieces that hang loose, as kontur offers.
 --suggest: wrong area in the plane that `kontur.suggest_to_look_at` names, over that of the worst parallel one; then the same
 of a random parallel plane through the object, and of that with the largest section.
---steps: how many voxels change where an outline moves by 0.1 mm, how far from the drawn planes, and none where it repeats
-the mask.
+--steps: how many voxels change where an outline moves by 0.1 mm, how many it sweeps itself, how far from the drawn planes, and
+none where it repeats the mask.
 """
 import argparse
 import csv
@@ -23,6 +23,7 @@ from scipy import ndimage
 import kontur
 
 BLEND_MM = 10
+CARRIED = 4 / 3 ** .5  # lengths of g's kernel: what a change in a plane is of that on both sides of it, all in all
 DIRECTIONS = [np.array(d, float) for d in (
     (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, -1, 0), (1, 0, 1), (1, 0, -1), (0, 1, 1), (0, 1, -1), (1, 1, 1),
     (1, 1, -1), (1, -1, 1), (-1, 1, 1))]
@@ -152,12 +153,18 @@ def run(case, method, planes, options):
 
 
 def steps(case):
-    """Of a mask: which share of its voxels changes when its first outline grows by 0.1 mm, ten times over; the farthest change
-    from three drawn planes, in reaches; and whether outlines that repeat the mask change nothing."""
+    """Of a mask: the largest share of its voxels that change when its first outline grows by 0.1 mm, ten times over; what share
+    that outline sweeps, carried on; the farthest change from three drawn planes, in reaches; and whether outlines that repeat the
+    mask change nothing."""
     planes = [case.slice_plane(worst_slice(case, case.m, []))]
     drawn = corrections(case, planes)
-    masks = [by_kontur(case, planes, drawn=moved(drawn, 0.1 * tenth)) for tenth in range(11 if len(drawn.contours) else 0)]
-    changed = [(after != before).sum() / case.m.sum() for before, after in zip(masks, masks[1:])] or [0]
+    last, largest = None, 0
+    for tenth in range(11 if len(drawn.contours) else 0):
+        now = by_kontur(case, planes, drawn=moved(drawn, 0.1 * tenth))
+        largest = max(largest, 0 if last is None else (now != last).sum() / case.m.sum())
+        last = now
+    carried_mm = CARRIED * kontur.correct(case.mask, drawn).report.length_mm if len(drawn.contours) else 0
+    swept = 0.1 * sum(map(length_mm, drawn.contours)) * carried_mm / (case.m.sum() * case.grid.voxel_volume_mm3)
     done = []
     for _ in range(3):
         done.append(worst_slice(case, case.m, done))
@@ -167,8 +174,13 @@ def steps(case):
     at = (np.asarray(case.grid.index_to_mm) @ np.stack([i, j, k, np.ones_like(i)]).astype(float))[:3].T
     away = np.min([np.abs((at - plane.origin) @ np.asarray(plane.normal)) for plane in planes], axis=0)
     same = by_kontur(case, planes, drawn=kontur.trace(case.mask, planes))
-    return {"mask": case.name, "largest_step": round(float(max(changed)), 5), "mean_step": round(float(statistics.fmean(changed)), 5),
+    return {"mask": case.name, "largest_step": round(float(largest), 5), "swept": round(float(swept), 5),
             "farthest": round(float(away.max() / corrected.report.reach_mm), 3), "repeated": int((same != case.m).sum())}
+
+
+def length_mm(contour):
+    points = np.asarray(contour.points)
+    return np.linalg.norm(np.roll(points, 1, axis=0) - points, axis=1).sum()
 
 
 def moved(drawn, mm):

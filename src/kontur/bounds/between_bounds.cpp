@@ -18,7 +18,6 @@ constexpr std::size_t kMostProbes = 40;
 // Of a tube's radius: what its wall may stand out by. Of two arches and two straight tubes the mean Dice is .957; half .959,
 // which leaves less to tubes that do widen.
 constexpr double kBulge = 0.05;
-constexpr double kWallNoise = 0.05;           // of the same; half and twice .957
 constexpr std::size_t kWallSteps[] = {2, 4};  // places of the way: a quarter and half of it
 
 bool others_show_nothing(const std::vector<DrawnRegion>& regions, const TubeWay& way, const Vec3& place) {
@@ -53,7 +52,7 @@ void append_walls(const std::vector<DrawnRegion>& regions, const TubeWay& way, b
             const Vec3 place = middle + (1 - part) * off + part * off_there;
             bounds.push_back({.position = place,
                               .most_mm = part * flare + kBulge * radius,
-                              .noise_mm = faded(kWallNoise * radius, belief)});
+                              .noise_mm = faded(kSureNoise * radius, belief)});
         }
     });
 }

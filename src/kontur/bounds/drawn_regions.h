@@ -74,6 +74,11 @@ double faded(double noise_mm, double belief);
 /// Bounds that are believed less than this are left out: their noise is ten thousand times as large.
 constexpr double kLeastBelief = 0.01;
 
+/// The noise of a bound that is sure, of the length that it follows from: an end's height, a tube's radius, the depth below
+/// an end. Half costs 32 organ drawings .00035, one of 8 slices .0098, and tubes that end at an empty plane gain .001; twice
+/// changes the former by .00001, at most .0017, and costs the latter .002. 9 by hand do not tell.
+constexpr double kSureNoise = 0.05;
+
 /// Places at which one outline is asked.
 constexpr std::size_t kLinePlaces = 24;
 

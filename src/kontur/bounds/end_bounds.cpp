@@ -18,8 +18,8 @@ constexpr double kGapShare = 0.85;   // of a gap: the object ends anywhere in it
 constexpr double kMostHeight = 1.5;  // guesses
 constexpr double kNoGap = 1e300;     // mm
 constexpr double kBeyondPoints = 1.25;
-constexpr double kLedOn = 0.35;  // of the height: the object surely goes on where a region lies so far ahead
-constexpr double kNoise = 0.05, kGuessNoise = 0.3;  // of the height
+constexpr double kLedOn = 0.35;      // of the height: the object surely goes on where a region lies so far ahead
+constexpr double kGuessNoise = 0.3;  // of the height
 // Heights from its outline a dome is as high as in the middle. Everywhere lower: six discs have 91 ml for 94 (right: 90), a
 // stack with a speck far ahead is over a quarter larger than without.
 constexpr double kEdge = 2;
@@ -115,7 +115,7 @@ public:
         // A third of the height, and the volume jumps by 7 % as one of two planes turns. Never: 63 drawings lose .003.
         const double left = 1 - smooth_step(0, height, reach_of_others_);
         if (left < kLeastBelief) return false;
-        const double noise = height * (end.belief * kNoise + (1 - end.belief) * kGuessNoise);
+        const double noise = height * (end.belief * kSureNoise + (1 - end.belief) * kGuessNoise);
         const bool is_guess = end.belief < kGuess;
         const auto add = [&](const Vec3& foot, double above, double most_mm) {
             const double needed = left * is_seen(foot, height) * (1 - led_on(foot, height));

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "kontur/bounds/section_probes.h"
+#include "kontur/bounds/drawn_regions.h"
 #include "kontur/drawing/drawn_planes.h"
 #include "kontur/drawing/orient.h"
 #include "kontur/drawing/subdivide.h"
@@ -142,7 +142,7 @@ void append_dome(const Section& region, const std::vector<Probe>& inside, double
         const double rim = 1 - probe.depth / widest;
         const Vec3 base = region.plane.from_uv(probe.at), up = sign * height * region.plane.normal;
         ends.lids.push_back({.position = base + std::sqrt(1 - rim * rim) * up, .contour = contour, .line = kLid});
-        ends.guards.push_back({.position = base + 1.5 * up, .most_mm = -height / 4, .noise_mm = 0.05 * height});
+        ends.guards.push_back({.position = base + 1.5 * up, .most_mm = -height / 4, .noise_mm = kSureNoise * height});
     }
 }
 

@@ -10,8 +10,6 @@
 namespace kontur {
 namespace {
 
-// Radii. Half names whole stacks of bench/hunt.py and organs in 8 slices; twice is silent on its linked rings by 3 planes.
-constexpr double kNear = 3;
 // Of the area of all outlines. Of 256 organ drawings, 2 of a thin vessel by hand are above it. Half names one more organ,
 // .07 of which stands alone; twice is silent on the linked rings, of which .17 does.
 constexpr double kShare = 0.1;
@@ -20,7 +18,7 @@ constexpr double kShare = 0.1;
 bool is_crossed(const DrawnRegion& own, const RegionPart& part, const Section& other) {
     return std::ranges::any_of(crossings_with(own.section.plane, other), [&](const Point2& at) {
         const Section::Nearest nearest = own.search.nearest(at);
-        return nearest.outline == part.outline() && nearest.distance < kNear * part.radius_mm;
+        return nearest.outline == part.outline() && nearest.distance < kNearest * part.radius_mm;
     });
 }
 
@@ -30,7 +28,7 @@ bool stands_alone(const std::vector<DrawnRegion>& regions, const std::vector<Tub
     for (std::size_t r = 0; r < regions.size(); ++r) {
         if (r == part.region) continue;
         bool is_near = false;
-        regions[r].places.visit_within(part.center, kNear * std::max(part.radius_mm, regions[r].radius_mm),
+        regions[r].places.visit_within(part.center, kNearest * std::max(part.radius_mm, regions[r].radius_mm),
                                        [&](const Vec3&) { is_near = true; });
         if (is_near || is_crossed(regions[part.region], part, regions[r].section)) return false;
     }

@@ -12,12 +12,10 @@
 namespace kontur {
 namespace {
 
-// Of seven tubes the mean Dice is .964, of 30 drawings by few planes .874. kNearest: half costs the latter .0014, twice the
-// former .038. kCone: no tube, few planes at most .002.
-constexpr double kCone = 0.7;   // cosine: of the way with both normals
-constexpr double kNearest = 3;  // radii: nearer sections need no help
-// ... nor tilted ones. For all sections an aorta loses .0095; 3 (for none), and an arch loses .033 at 3 radii, 81 organ
-// drawings nothing.
+// Cosine, of the way with both normals: half and twice change no tube, few planes at most .002.
+constexpr double kCone = 0.7;
+// Radii: nearer sections need no help, nor tilted ones. For all sections an aorta loses .0095; 3 (for none), and an arch
+// loses .033 at 3 radii, 81 organ drawings nothing.
 constexpr double kTooNear = 2.8;
 /// Cosine of the way with the mean of both normals: two planes that the way crosses more obliquely do not tell its
 /// direction. Without, cylinders that lean by 30 and 40 degrees across parallel rings fall from .960 and .945 to .943 and

@@ -16,7 +16,6 @@ namespace {
 constexpr double kApart = 1.5;             // of the region's inscribed radius; half .933, twice .950
 constexpr double kDepths[] = {0.5, 1, 2};  // of the same
 constexpr double kBulge = 0.1;             // of the depth; half .947, twice .934
-constexpr double kNoise = 0.05;            // of the depth; half .950, twice .947
 
 /// A plane ahead of a region, and how much of the region it does not show.
 struct PlaneAhead {
@@ -60,7 +59,7 @@ public:
                     if (next && below > next->distance_mm / 2) break;
                     bounds.push_back({.position = rim - below * up_,
                                       .most_mm = below * flare + kBulge * below,
-                                      .noise_mm = faded(kNoise * below, belief)});
+                                      .noise_mm = faded(kSureNoise * below, belief)});
                 }
             });
         return bounds;

@@ -40,8 +40,7 @@ struct DisplacementTrial {
     double distance_mm, by_mm, voxel_mm, step_mm;
 
     Beliefs beliefs() const {
-        return {[mm = by_mm](double) { return mm; },
-                [mm = kSupposedImageError * voxel_mm](const MovingPoint&) { return mm; }};
+        return {[mm = by_mm](double) { return mm; }, [mm = kSupposedImageError * voxel_mm](double) { return mm; }};
     }
 };
 

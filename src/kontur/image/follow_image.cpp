@@ -38,9 +38,7 @@ struct Trial {
         const Beliefs by_leaving_out = left_out->errors.beliefs(left_out_weight);
         const double share = displacement_weight / moving();
         return {[=](double mm) { return std::lerp(by_leaving_out.prior_mm(mm), by_displacing.prior_mm(mm), share); },
-                [=](const MovingPoint& point) {
-                    return 1 / std::hypot(1 / by_leaving_out.image_mm(point), 1 / by_displacing.image_mm(point));
-                }};
+                [=](double mm) { return 1 / std::hypot(1 / by_leaving_out.image_mm(mm), 1 / by_displacing.image_mm(mm)); }};
     }
 };
 

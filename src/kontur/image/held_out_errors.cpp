@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 
 #include "kontur/sampling/quantile.h"
 
@@ -14,7 +13,6 @@ namespace {
 
 constexpr Rise kSureGain{0, 1};       // standard errors of the mean gain
 constexpr Rise kSureShare{1, 1.15};   // standard errors of the share that is true
-constexpr std::size_t kNear = 40;     // held-out points that speak for a place
 constexpr double kLeastImage = 0.25;  // voxels: no image is better known than this
 constexpr Rise kSeen{kLeastImage, 2 * kLeastImage};
 
@@ -106,43 +104,22 @@ double HeldOutErrors::error_of_share() const {
 }
 
 /// The share of what the image tells that is true, less what chance makes of it (the positive part of James and Stein 1961).
-double HeldOutErrors::sure_share(const OffsetTruth& truth) const {
-    const double share = truth.share();
+double HeldOutErrors::sure_share() const {
+    const double share = truth_.share();
     if (share <= error_of_share_) return 0;
     return std::min(share - error_of_share_ * error_of_share_ / share, 1.0);
 }
 
 Beliefs HeldOutErrors::beliefs(double weight) const {
-    const auto errors = std::make_shared<const HeldOutErrors>(*this);
-    return {beliefs_.prior_mm, [errors, weight](const MovingPoint& point) { return errors->image_sd(point, weight); }};
-}
-
-std::vector<const HeldOutPoint*> HeldOutErrors::nearest(const Vec3& place) const {
-    std::vector<std::pair<double, const HeldOutPoint*>> apart;
-    for (const HeldOutPoint& h : held_out_) apart.emplace_back(distance(place, h.position), &h);
-    const std::size_t count = std::min(kNear, apart.size());
-    std::partial_sort(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(count), apart.end());
-    std::vector<const HeldOutPoint*> nearest;
-    for (std::size_t n = 0; n < count; ++n) nearest.push_back(apart[n].second);
-    return nearest;
-}
-
-double HeldOutErrors::image_sd(const MovingPoint& point, double weight) const {
-    const std::vector<const HeldOutPoint*> near = nearest(point.position);
-    std::vector<double> errors;
-    OffsetTruth truth = truth_;
-    for (const HeldOutPoint* h : near) {
-        errors.push_back(std::abs(clamped(h->without_mm)));
-        add(*h, 1 / static_cast<double>(near.size()), truth);
-    }
-    const double error = kDeviationOfMedian * 0.5 * (median(std::move(errors)) + median_without_);
     // Of errors u and what an image that is off by e of its own tells, u + e, the share u^2 / (u^2 + e^2) is true.
-    const double share = weight * sure_share(truth);
-    if (share == 0) return std::numeric_limits<double>::infinity();
+    const double share = weight * sure_share();
+    if (share == 0) return {beliefs_.prior_mm, [](double) { return std::numeric_limits<double>::infinity(); }};
+    const double error_mm = kDeviationOfMedian * median_without_ * std::sqrt((1 - share) / share);
     // Held-out contours are about twice as far from others as what lies between all of them. Of what lies farther than they
     // did, less is known.
-    const double nearer = std::max(point.distance_mm / median_distance_, 0.1);
-    return std::max(nearer * error * std::sqrt((1 - share) / share), kLeastImage * voxel_mm_);
+    return {beliefs_.prior_mm, [=, usual_mm = median_distance_, least_mm = kLeastImage * voxel_mm_](double distance_mm) {
+                return std::max(std::max(distance_mm / usual_mm, 0.1) * error_mm, least_mm);
+            }};
 }
 
 }  // namespace kontur

@@ -74,11 +74,9 @@ public:
 private:
     double weight_of_planes() const;
     double error_of_share() const;
-    double sure_share(const OffsetTruth& truth) const;
-    double image_sd(const MovingPoint& point, double weight) const;
+    double sure_share() const;
     double clamped(double error_mm) const;
     void add(const HeldOutPoint& point, double weight, OffsetTruth& sums) const;
-    std::vector<const HeldOutPoint*> nearest(const Vec3& place) const;
 
     std::vector<HeldOutPoint> held_out_;
     Beliefs beliefs_;

@@ -14,26 +14,20 @@ namespace {
 
 constexpr double kFollow = 0.05;         // noise of a moved point over its posterior standard deviation
 constexpr double kLeastDeviation = 0.2;  // voxels
-constexpr double kBeside = 2.24;         // how much noisier f is before and behind a moved point
-constexpr double kAnchorNoise = 0.1;     // voxels
 constexpr int kAttempts = 4;             // to keep the surface where the image was asked
 
-/// f at the moved points, and before and behind them, is what it was where they came from.
+/// f at the moved points is what it was where they came from.
 std::vector<PointConstraint> observations(const Movement& movement, const ImplicitFunction& before, double voxel_mm,
                                           const Work& work) {
     std::vector<Vec3> from;
-    for (const MovingPoint& p : movement.points)
-        for (const double side : {0.0, 1.0, -1.0}) from.push_back(p.position + side * voxel_mm * p.normal);
+    for (const MovingPoint& p : movement.points) from.push_back(p.position);
     std::vector<double> values(from.size());
     before.values(from, values, work);
     std::vector<PointConstraint> constraints;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        const std::size_t point = i / 3;
-        const double noise = kFollow * std::max(movement.offsets.sd_mm[point], kLeastDeviation * voxel_mm);
-        constraints.push_back({.position = from[i] + movement.offsets.mean_mm[point] * movement.points[point].normal,
+    for (std::size_t i = 0; i < from.size(); ++i)
+        constraints.push_back({.position = from[i] + movement.offsets.mean_mm[i] * movement.points[i].normal,
                                .value = values[i],
-                               .noise_mm = i % 3 == 0 ? noise : kBeside * noise});
-    }
+                               .noise_mm = kFollow * std::max(movement.offsets.sd_mm[i], kLeastDeviation * voxel_mm)});
     return constraints;
 }
 
@@ -42,27 +36,6 @@ double change_near(const Movement& movement, const Vec3& place) {
     const auto away = [&](const MovingPoint& point) { return distance(point.position, place); };
     const auto nearest = std::ranges::min_element(movement.points, {}, away);
     return movement.offsets.mean_mm[static_cast<std::size_t>(nearest - movement.points.begin())];
-}
-
-/// Where moving points would meet a drawn plane: f stays there what the contours make of it.
-std::vector<PointConstraint> anchors_in_planes(const Movement& movement, const Surroundings& surroundings,
-                                               const ImplicitFunction& fitted, const Work& work) {
-    const double voxel = surroundings.image.voxel_mm();
-    std::vector<Vec3> places;
-    for (const MovingPoint& p : movement.points)
-        for (const double wall : {p.least_mm, p.most_mm}) {
-            const bool near = std::abs(wall) < std::max(2.5 * p.prior_mm, 2 * voxel) && std::abs(wall) > 0.5 * voxel;
-            if (!near) continue;
-            const Vec3 place = p.position + wall * p.normal;
-            if (nearest_distance(place, surroundings.points) > voxel && nearest_distance(place, places) > 1.5 * voxel)
-                places.push_back(place);
-        }
-    std::vector<double> values(places.size());
-    fitted.values(places, values, work);
-    std::vector<PointConstraint> anchors;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        anchors.push_back({.position = places[i], .value = values[i], .noise_mm = kAnchorNoise * voxel});
-    return anchors;
 }
 
 std::vector<ImageShare> image_shares(const Movement& movement) {
@@ -120,14 +93,12 @@ ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const S
     if (movement.points.empty()) return result;
 
     const SearchedBand band = searched_band(surface.points, surroundings, surface.beliefs, spacing);
-    const std::vector<PointConstraint> anchors = anchors_in_planes(movement, surroundings, fitted.function, work);
     Refit refit(prepared, fitted, options, voxel);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         work.check();
         const auto change_mm = [&](const Vec3& p) { return change_near(movement, p); };
-        ImageData data{observations(movement, fitted.function, voxel, work),
-                       changes_outside(fitted, movement.points, drawing.contours, change_mm), change_mm};
-        data.values.insert(data.values.end(), anchors.begin(), anchors.end());
+        const ImageData data{observations(movement, fitted.function, voxel, work),
+                             changes_outside(fitted, movement.points, drawing.contours, change_mm), change_mm};
         FittedFunction refitted = refit.with(data, work);
         const std::vector<Vec3> strays =
             band.left_from(points_of_surface(refitted.function, drawing.contours, spacing, work), work);

@@ -83,7 +83,7 @@ Movement find_movement(const Surroundings& surroundings, const ImplicitFunction&
         }
     });
     if (beliefs.image_mm)
-        for (const MovingPoint& p : movement.points) evidence.image_sd_mm.push_back(beliefs.image_mm(p));
+        for (const MovingPoint& p : movement.points) evidence.image_sd_mm.push_back(beliefs.image_mm(p.distance_mm));
 
     const auto across = static_cast<std::int64_t>(2 * examples.size()) * Appearance::kOffsets;
     const std::int64_t along = 2 * (Appearance::kHalf + evidence.most) + 1;

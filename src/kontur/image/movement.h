@@ -30,7 +30,7 @@ struct Surroundings {
 struct Beliefs {
     std::function<double(double distance_mm)> prior_mm;  ///< standard deviation of an offset
     /// How wrong the image is; infinite: it is not believed there; unset: not known.
-    std::function<double(const MovingPoint& point)> image_mm{};
+    std::function<double(double distance_mm)> image_mm{};
 };
 
 /// Points of a surface and how far the image moves them.

@@ -13,13 +13,11 @@ namespace {
 constexpr double kLeastNoise = 0.03, kMostNoise = 3;  // cells
 constexpr double kNoiseOfFall = 0.02;                 // noise in cells, times how much the probability falls over one
 constexpr double kLeastCrossing = 0.1;                // steps: a surface nearer to a cell's centre counts as so far from it
-constexpr double kAbsence = 1.5;                      // cells: so far from the walk's surface there is none
-constexpr double kNoiseOfAbsence = 0.5;               // of its distance
-constexpr std::size_t kMostAbsences = 450, kMostAnchors = 900;
+constexpr std::size_t kMostAnchors = 900;
 // Of f that counts, mm over mm. Of ten drawings Dice .8973; half as much at least .8972, twice .8989.
 constexpr double kLeastSlope = 0.4;
 constexpr double kAnchorNoise = 0.2, kMostAnchorValue = 1.5;  // cells
-constexpr double kLineSpacing = 0.7, kLineNoise = 0.005;      // cells: along the drawn lines nothing changes
+constexpr double kLineSpacing = 1.4, kLineNoise = 0.005;      // cells: along the drawn lines nothing changes
 
 class WalkConstraints {
 public:
@@ -43,17 +41,6 @@ public:
             }
         }
         return some(data, options_.most, frame);
-    }
-
-    std::vector<PointConstraint> absences(const Affine3& frame) const {
-        std::vector<PointConstraint> data;
-        for (const std::uint32_t cell : walk_.band) {
-            const double steps = static_cast<double>(depths_.depth_mm[cell]) / cells_.edge_mm();
-            if (alone_.is_inside(cell) != walk_.is_inside(cell) &&
-                is_longer(std::abs(depths_.depth_mm[cell]), kAbsence, cells_) && is_off_contours(cell))
-                data.push_back(datum(cell, steps, kNoiseOfAbsence * std::abs(steps)));
-        }
-        return some(data, kMostAbsences, frame);
     }
 
     std::vector<PointConstraint> anchors_in_planes(const ImplicitFunction& before, const Affine3& frame,
@@ -183,7 +170,6 @@ ImageData walk_data(const WalkDepths& walk, const FitDepths& alone, const Drawin
     const Affine3 frame = frame_of(drawing.contours);
     const WalkConstraints constraints(walk, alone.depths, options);
     ImageData data{constraints.beside_surface(frame), {}};
-    append(constraints.absences(frame), data.values);
     as_steep_as(alone.fitted.function, data.values, work);
     append(constraints.anchors_in_planes(alone.fitted.function, frame, work), data.values);
     data.change_mm = [constraints](const Vec3& p) { return constraints.change_mm(p); };

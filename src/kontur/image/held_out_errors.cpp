@@ -11,8 +11,9 @@
 namespace kontur {
 namespace {
 
-constexpr Rise kSureGain{0, 1};       // standard errors of the mean gain
-constexpr Rise kSureShare{1, 1.15};   // standard errors of the share that is true
+constexpr Rise kSureGain{0, 1};  // standard errors of the mean gain
+// Standard errors of the share that is true. Up to 1.5 loses .002 on 48 drawings, .0001 on 32; a step gains .0002 and 0.
+constexpr Rise kSureShare{1, 1.15};
 constexpr double kLeastImage = 0.25;  // voxels: no image is better known than this
 constexpr Rise kSeen{kLeastImage, 2 * kLeastImage};
 

@@ -12,9 +12,10 @@
 namespace kontur {
 namespace {
 
-constexpr double kFollow = 0.05;         // noise of a moved point over its posterior standard deviation
-constexpr double kLeastDeviation = 0.2;  // voxels
-constexpr int kAttempts = 4;             // to keep the surface where the image was asked
+constexpr double kFollow = 0.05;           // noise of a moved point over its posterior standard deviation
+constexpr double kLeastDeviation = 0.2;    // voxels
+constexpr double kSurfaceSpacing = 0.025;  // of the drawing's diameter: of points of the surface of a fit
+constexpr int kAttempts = 4;               // to keep the surface where the image was asked
 
 /// f at the moved points is what it was where they came from.
 std::vector<PointConstraint> observations(const Movement& movement, const ImplicitFunction& before, double voxel_mm,
@@ -97,8 +98,7 @@ ImageFit move_surface(SurfaceMovement surface, const FittedDrawing& fit, const S
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         work.check();
         const auto change_mm = [&](const Vec3& p) { return change_near(movement, p); };
-        const ImageData data{observations(movement, fitted.function, voxel, work),
-                             changes_outside(fitted, movement.points, drawing.contours, change_mm), change_mm};
+        const ImageData data{observations(movement, fitted.function, voxel, work), {}, change_mm};
         FittedFunction refitted = refit.with(data, work);
         const std::vector<Vec3> strays =
             band.left_from(points_of_surface(refitted.function, drawing.contours, spacing, work), work);

@@ -9,7 +9,6 @@
 
 #include "kontur/fit/constraints.h"
 #include "kontur/fit/thin.h"
-#include "kontur/sampling/spread_points.h"
 
 namespace kontur {
 namespace {
@@ -20,10 +19,6 @@ constexpr std::size_t kCompared = 500;  // drawn points at which functions are
 // 0.04 mm instead of 0.01.
 constexpr double kBetween = 4, kBetweenOfDiameter = 0.015;
 constexpr double kTolerance = 5e-4;  // of the spacing
-// Radii of the drawing, from its surface, where changes outside are told: a single shell at .35 lets f rise behind a drum.
-constexpr double kShells[] = {0.25, 0.5};
-constexpr std::size_t kShellPlaces = 100;          // about so many in each
-constexpr double kShellNoise = 0.3, kAlone = 0.8;  // of that way: how surely, and how far from all of the surface
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 double length_mm(const std::vector<BoundaryPoint>& points) {
@@ -73,28 +68,6 @@ FittedFunction with_function(FittedFunction fitted, ImplicitFunction function) {
 }
 
 }  // namespace
-
-std::vector<PointConstraint> changes_outside(const FittedFunction& fitted, std::span<const MovingPoint> surface,
-                                             const ContourSet& contours,
-                                             const std::function<double(const Vec3&)>& change_mm) {
-    constexpr double kMostRadii = 1.45;  // all centres are to be within kScreenedReach of each other
-    const UnitFrame& frame = fitted.function.frame();
-    std::vector<Vec3> points;
-    for (const MovingPoint& p : surface) points.push_back(p.position);
-    std::vector<PointConstraint> changes;
-    for (const double radii : kShells) {
-        const double above = radii * frame.scale;
-        std::vector<Vec3> places;
-        for (const MovingPoint& p : surface) {
-            const Vec3 place = p.position + above * p.normal;
-            if (distance(place, frame.center) < kMostRadii * frame.scale && nearest_distance(place, points) > kAlone * above)
-                places.push_back(place);
-        }
-        for (const Vec3& place : spread(places, kShellPlaces, frame_of(contours)))
-            changes.push_back({.position = place, .value = change_mm(place), .noise_mm = kShellNoise * above});
-    }
-    return changes;
-}
 
 Refit::Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options, double spacing_mm)
     : prepared_(prepared), fitted_(fitted), options_(resolved(options, prepared.ball.diameter())) {

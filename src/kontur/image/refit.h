@@ -2,11 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "kontur/fit/fit.h"
-#include "kontur/sampling/moving_point.h"
 
 namespace kontur {
 
@@ -17,15 +15,6 @@ struct ImageData {
     /// How far f changes at any place, as the surface near it is moved, mm.
     std::function<double(const Vec3&)> change_mm = [](const Vec3&) { return 0.0; };
 };
-
-inline constexpr double kSurfaceSpacing = 0.025;  ///< of the drawing's diameter: of points of the surface of a fit
-
-/// How f changes in two shells outside of its surface, of which there are points all over: as the surface does beneath, give
-/// or take a third of the way to it. By itself f + g would go on as steeply as it is told beside the surface, and where that
-/// moves inwards become positive again.
-std::vector<PointConstraint> changes_outside(const FittedFunction& fitted, std::span<const MovingPoint> surface,
-                                             const ContourSet& contours,
-                                             const std::function<double(const Vec3&)>& change_mm);
 
 /// Adds what the image says to a fit f. The result is f + g. g is the smoothest function of the same kernel that is 0 at all
 /// data of the fit, and elsewhere the image's data less f. That is the minimum of fit and image together, but for one thing:

@@ -146,7 +146,9 @@ private:
     void settle_bounds(std::size_t part_size) {
         if (!bounds_.holds_any() || options_.most_solves == 1) return;
         const TellingPoints part = equally(thin(all_, std::clamp(part_size / 2, std::size_t{1}, options_.tilt_points)));
-        for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance, kCounts);) ++solve;
+        // Each begins anew: what is left of an earlier start would decide which bounds are held.
+        for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance, kCounts); ++solve)
+            previous_.setup.reset();
     }
 
     /// The fit by the points that tell the lines; false where they are too many to be worth a try, or do not tell them.

@@ -20,3 +20,24 @@
 #else
 #define KONTUR_EVERY_INSTRUCTION_SET
 #endif
+
+#if KONTUR_X86_64_LEVEL != 1
+namespace kontur {
+
+/// The level of x86-64 that functions run on which are chosen among by hand.
+inline int x86_64_level() {
+    if constexpr (KONTUR_X86_64_LEVEL > 0) return KONTUR_X86_64_LEVEL;
+    const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512cd");
+#ifdef __SANITIZE_ADDRESS__
+    constexpr bool kAligned = false;  // its stack aligns no variable to 64 bytes (GCC's bug 110027)
+#else
+    constexpr bool kAligned = true;
+#endif
+    return v4 && kAligned ? 4 : v3 ? 3 : 1;
+}
+
+}  // namespace kontur
+#endif

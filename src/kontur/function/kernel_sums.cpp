@@ -6,6 +6,7 @@
 
 #include "kontur/base/instruction_sets.h"
 #include "kontur/base/parallel.h"
+#include "kontur/function/root_by_estimate.h"
 
 namespace kontur {
 namespace {
@@ -153,6 +154,55 @@ KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic_gradient(const Sources& s, cons
     }
 }
 
+#if KONTUR_X86_64_LEVEL != 1
+
+constexpr int kPacks = kLanes / 8;
+
+[[gnu::always_inline]] inline void load(const std::array<double, kLanes>& from, int pack, Pack8& to) {
+    for (std::size_t l = 0; l < 8; ++l) to[l] = from[static_cast<std::size_t>(8 * pack) + l];
+}
+
+/// sum_screened with roots by estimate. Sums of gradients gain nothing by them.
+__attribute__((target("arch=x86-64-v4"))) void sum_screened_by_estimate(const Sources& s, const Lanes& t,
+                                                                        double* __restrict out) {
+    Pack8 x[kPacks], y[kPacks], z[kPacks], sum[kPacks] = {};
+    for (int p = 0; p < kPacks; ++p) {
+        load(t.x, p, x[p]);
+        load(t.y, p, y[p]);
+        load(t.z, p, z[p]);
+    }
+    for (std::size_t j = 0; j < s.count; ++j) {
+        Pack8 squared[kPacks], r[kPacks], even[kPacks], odd[kPacks], phi[kPacks];
+#pragma GCC unroll 4
+        for (int p = 0; p < kPacks; ++p) {
+            const Pack8 dx = x[p] - s.x[j], dy = y[p] - s.y[j], dz = z[p] - s.z[j];
+            squared[p] = dx * dx + dy * dy + dz * dz;
+        }
+#pragma GCC unroll 4
+        for (int p = 0; p < kPacks; ++p) root_by_estimate(squared[p], r[p]);
+#pragma GCC unroll 4
+        for (int p = 0; p < kPacks; ++p) {
+            screened_halves(kScreenedValue, squared[p], even[p], odd[p]);
+            screened_value(squared[p], r[p], even[p], odd[p], phi[p]);
+            sum[p] += s.w[j] * phi[p];
+        }
+    }
+    for (int p = 0; p < kPacks; ++p)
+        for (int l = 0; l < 8; ++l) out[8 * p + l] = sum[p][l];
+}
+
+#endif
+
+using SumValues = void(const Sources&, const Lanes&, double*);
+
+/// By the roots that are fastest here.
+SumValues* fastest_screened() {
+#if KONTUR_X86_64_LEVEL != 1
+    if (gains_by_estimate()) return sum_screened_by_estimate;
+#endif
+    return sum_screened;
+}
+
 Sources sources(const PointArrays& centers, std::span<const double> weights) {
     return {centers.x.data(), centers.y.data(), centers.z.data(), weights.data(), centers.size()};
 }
@@ -177,8 +227,7 @@ void for_each_lane_group(std::size_t target_count, const Work& work, const Body&
 }
 
 /// The sums at all targets by one of the functions above.
-void sum_values(void (*sum)(const Sources&, const Lanes&, double*), const Sources& from, const PointArrays& targets,
-                std::span<double> out, const Work& work) {
+void sum_values(SumValues* sum, const Sources& from, const PointArrays& targets, std::span<double> out, const Work& work) {
     for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
         Lanes lanes;
         alignas(64) std::array<double, kLanes> result;
@@ -219,7 +268,7 @@ EvenPowers even_powers(const PointArrays& centers, std::span<const double> weigh
 }
 
 void sum_kernel(const KernelSum& sum, const PointArrays& targets, std::span<double> out, const Work& work) {
-    sum_values(sum.kernel == Kernel::screened      ? sum_screened
+    sum_values(sum.kernel == Kernel::screened      ? fastest_screened()
                : sum.kernel == Kernel::triharmonic ? sum_triharmonic
                                                    : sum_biharmonic,
                sources(sum.centers, sum.weights), targets, out, work);

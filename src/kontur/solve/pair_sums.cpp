@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kontur/base/instruction_sets.h"
+#include "kontur/function/root_by_estimate.h"
 #include "kontur/function/screened_kernel.h"
 
 // GCC 12 takes writing one lane of a vector for reading the others.
@@ -51,13 +52,20 @@ template <int kLanes>
     }
 }
 
+/// The processor's own.
+struct OwnRoot {
+    template <class Pack>
+    [[gnu::always_inline]] static void of(const Pack& squared, Pack& root) {
+        for (std::size_t l = 0; l < sizeof(Pack) / sizeof(double); ++l) root[l] = std::sqrt(squared[l]);
+    }
+};
+
 /// phi at some packs of squared distances, step by step for all of them: each step of one waits for the last.
-template <Kernel kKernel, int kPacks, class Pack>
+template <Kernel kKernel, class Root, int kPacks, class Pack>
 [[gnu::always_inline]] inline void evaluate(const Pack (&squared)[kPacks], Pack (&phi)[kPacks]) {
     Pack r[kPacks], even[kPacks], odd[kPacks];
 #pragma GCC unroll 4
-    for (int p = 0; p < kPacks; ++p)
-        for (std::size_t l = 0; l < sizeof(Pack) / sizeof(double); ++l) r[p][l] = std::sqrt(squared[p][l]);
+    for (int p = 0; p < kPacks; ++p) Root::of(squared[p], r[p]);
     if constexpr (kKernel == Kernel::screened) {
 #pragma GCC unroll 4
         for (int p = 0; p < kPacks; ++p) screened_halves(kScreenedValue, squared[p], even[p], odd[p]);
@@ -69,7 +77,7 @@ template <Kernel kKernel, int kPacks, class Pack>
 }
 
 /// At most kPacks * kLanes left nodes, held in registers while the right ones pass by.
-template <int kLanes, Kernel kKernel, bool kMutual, int kPacks>
+template <int kLanes, class Root, Kernel kKernel, bool kMutual, int kPacks>
 [[gnu::always_inline]] inline void add_sums(const NodeView& nodes, NodeRun left, std::span<const NodeRun> right,
                                             double* out) {
     Pack<kLanes> x[kPacks], y[kPacks], z[kPacks], weight[kPacks], sum[kPacks];
@@ -90,7 +98,7 @@ template <int kLanes, Kernel kKernel, bool kMutual, int kPacks>
                 const Pack<kLanes> dx = x[p] - xj, dy = y[p] - yj, dz = z[p] - zj;
                 squared[p] = dx * dx + dy * dy + dz * dz;
             }
-            evaluate<kKernel>(squared, phi);
+            evaluate<kKernel, Root>(squared, phi);
 #pragma GCC unroll 4
             for (int p = 0; p < kPacks; ++p) {
                 sum[p] += wj * phi[p];
@@ -103,32 +111,33 @@ template <int kLanes, Kernel kKernel, bool kMutual, int kPacks>
             if (const std::int32_t i = left.begin + p * kLanes + l; i < left.end) out[i] += sum[p][l];
 }
 
-template <int kLanes, Kernel kKernel, bool kMutual>
+template <int kLanes, class Root, Kernel kKernel, bool kMutual>
 [[gnu::always_inline]] inline void add_all_sums(const NodeView& nodes, NodeRun left, std::span<const NodeRun> right,
                                                 double* out) {
     constexpr int kMostPacks = 4;
     for (; left.begin < left.end; left.begin += kMostPacks * kLanes) {
         const NodeRun part{left.begin, std::min(left.end, left.begin + kMostPacks * kLanes)};
-        if (part.size() > 3 * kLanes) add_sums<kLanes, kKernel, kMutual, 4>(nodes, part, right, out);
-        else if (part.size() > 2 * kLanes) add_sums<kLanes, kKernel, kMutual, 3>(nodes, part, right, out);
-        else if (part.size() > kLanes) add_sums<kLanes, kKernel, kMutual, 2>(nodes, part, right, out);
-        else add_sums<kLanes, kKernel, kMutual, 1>(nodes, part, right, out);
+        if (part.size() > 3 * kLanes) add_sums<kLanes, Root, kKernel, kMutual, 4>(nodes, part, right, out);
+        else if (part.size() > 2 * kLanes) add_sums<kLanes, Root, kKernel, kMutual, 3>(nodes, part, right, out);
+        else if (part.size() > kLanes) add_sums<kLanes, Root, kKernel, kMutual, 2>(nodes, part, right, out);
+        else add_sums<kLanes, Root, kKernel, kMutual, 1>(nodes, part, right, out);
     }
 }
 
-template <int kLanes, bool kMutual>
+template <int kLanes, class Root, bool kMutual>
 [[gnu::always_inline]] inline void add_sums_of(Kernel kernel, const NodeView& nodes, NodeRun left,
                                                std::span<const NodeRun> right, double* out) {
-    if (kernel == Kernel::screened) add_all_sums<kLanes, Kernel::screened, kMutual>(nodes, left, right, out);
-    else if (kernel == Kernel::triharmonic) add_all_sums<kLanes, Kernel::triharmonic, kMutual>(nodes, left, right, out);
-    else add_all_sums<kLanes, Kernel::biharmonic, kMutual>(nodes, left, right, out);
+    if (kernel == Kernel::screened) add_all_sums<kLanes, Root, Kernel::screened, kMutual>(nodes, left, right, out);
+    else if (kernel == Kernel::triharmonic)
+        add_all_sums<kLanes, Root, Kernel::triharmonic, kMutual>(nodes, left, right, out);
+    else add_all_sums<kLanes, Root, Kernel::biharmonic, kMutual>(nodes, left, right, out);
 }
 
 using AddSums = void(Kernel, const NodeView&, NodeRun, std::span<const NodeRun>, double*);
 
 template <bool kMutual>
 void add_sums_by_2(Kernel kernel, const NodeView& nodes, NodeRun left, std::span<const NodeRun> right, double* out) {
-    add_sums_of<2, kMutual>(kernel, nodes, left, right, out);
+    add_sums_of<2, OwnRoot, kMutual>(kernel, nodes, left, right, out);
 }
 
 #if KONTUR_X86_64_LEVEL == 1
@@ -140,33 +149,30 @@ AddSums* widest() {
 template <bool kMutual>
 __attribute__((target("arch=x86-64-v3"))) void add_sums_by_4(Kernel kernel, const NodeView& nodes, NodeRun left,
                                                              std::span<const NodeRun> right, double* out) {
-    add_sums_of<4, kMutual>(kernel, nodes, left, right, out);
+    add_sums_of<4, OwnRoot, kMutual>(kernel, nodes, left, right, out);
 }
 
 template <bool kMutual>
 __attribute__((target("arch=x86-64-v4"))) void add_sums_by_8(Kernel kernel, const NodeView& nodes, NodeRun left,
                                                              std::span<const NodeRun> right, double* out) {
-    add_sums_of<8, kMutual>(kernel, nodes, left, right, out);
+    add_sums_of<8, OwnRoot, kMutual>(kernel, nodes, left, right, out);
 }
 
-/// The level of x86-64 that the hot functions run on.
-int level() {
-    if constexpr (KONTUR_X86_64_LEVEL > 0) return KONTUR_X86_64_LEVEL;
-    const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-                    __builtin_cpu_supports("avx512cd");
-#ifdef __SANITIZE_ADDRESS__
-    constexpr bool kAligned = false;  // its stack aligns no variable to 64 bytes (GCC's bug 110027)
-#else
-    constexpr bool kAligned = true;
-#endif
-    return v4 && kAligned ? 4 : v3 ? 3 : 1;
+struct EstimatedRoot {
+    [[gnu::always_inline]] static void of(const Pack8& squared, Pack8& root) { root_by_estimate(squared, root); }
+};
+
+template <bool kMutual>
+__attribute__((target("arch=x86-64-v4"))) void add_sums_by_estimate(Kernel kernel, const NodeView& nodes, NodeRun left,
+                                                                    std::span<const NodeRun> right, double* out) {
+    add_sums_of<8, EstimatedRoot, kMutual>(kernel, nodes, left, right, out);
 }
 
 template <bool kMutual>
 AddSums* widest() {
-    return level() == 4 ? add_sums_by_8<kMutual> : level() == 3 ? add_sums_by_4<kMutual> : add_sums_by_2<kMutual>;
+    if (gains_by_estimate()) return add_sums_by_estimate<kMutual>;
+    const int level = x86_64_level();
+    return level == 4 ? add_sums_by_8<kMutual> : level == 3 ? add_sums_by_4<kMutual> : add_sums_by_2<kMutual>;
 }
 #endif
 

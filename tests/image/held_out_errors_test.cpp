@@ -27,9 +27,7 @@ HeldOutErrors errors_of(const std::vector<HeldOutPoint>& points) {
 HeldOutErrors errors_with_gains(const std::vector<double>& gains_mm) {
     std::vector<HeldOutPoint> points;
     for (std::size_t plane = 0; plane < gains_mm.size(); ++plane)
-        for (int n = 0; n < 20; ++n)
-            points.push_back(
-                {Vec3{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, 2, 2 - gains_mm[plane], 2, plane});
+        for (int n = 0; n < 20; ++n) points.push_back({kFarMm, 2, 2 - gains_mm[plane], 2, plane});
     return errors_of(points);
 }
 
@@ -40,7 +38,7 @@ std::vector<HeldOutPoint> told(double error_mm, double image_mm) {
     for (std::size_t plane = 0; plane < 20; ++plane)
         for (int n = 0; n < 100; ++n) {
             const double error = error_mm * random.gaussian(), image = image_mm * random.gaussian();
-            points.push_back({{1.0 * n, 0, 10.0 * static_cast<double>(plane)}, kFarMm, error, -image, error, plane});
+            points.push_back({kFarMm, error, -image, error, plane});
         }
     return points;
 }
@@ -69,9 +67,7 @@ TEST(HeldOutErrors, BelowAQuarterOfAVoxelThereIsNothingToSeeNorOfACellForAWalk) 
         const double error_mm = voxels * kVoxelMm;
         std::vector<HeldOutPoint> points;
         for (std::size_t plane = 0; plane < 4; ++plane)
-            for (int n = 0; n < 20; ++n)
-                points.push_back(
-                    {Vec3{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, error_mm, 0, error_mm, plane});
+            for (int n = 0; n < 20; ++n) points.push_back({kFarMm, error_mm, 0, error_mm, plane});
         return errors_of(points);
     };
     EXPECT_EQ(errors(0.2).visibility(), 0);
@@ -88,7 +84,7 @@ TEST(HeldOutErrors, TellTheErrorOfTheImage) {
 TEST(HeldOutErrors, WhatTheImageMayNotMendTellsNothingOfIt) {
     // Beyond the end of a stack the surface may not follow: 5 mm of error are left whatever the image shows.
     std::vector<HeldOutPoint> points = told(1, 1);
-    for (int n = 0; n < 200; ++n) points.push_back({{1000.0 + n, 0, 0}, kFarMm, 5, 6, 0, 0});
+    for (int n = 0; n < 200; ++n) points.push_back({kFarMm, 5, 6, 0, 0});
     EXPECT_NEAR(image_mm(errors_of(points)), image_mm(errors_of(told(1, 1))), 0.2);
     for (HeldOutPoint& point : points) point.reachable_mm = point.without_mm;
     EXPECT_GT(image_mm(errors_of(points)), 1.5);
@@ -100,7 +96,7 @@ HeldOutErrors errors_of_which_the_last_is_told(double moved_mm) {
     for (std::size_t plane = 0; plane < 4; ++plane)
         for (int n = 0; n < 20; ++n) {
             const double moved = plane == 3 ? moved_mm : 1;
-            points.push_back({{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, 1.2, 1.2 - moved, 1.2, plane});
+            points.push_back({kFarMm, 1.2, 1.2 - moved, 1.2, plane});
         }
     return errors_of(points);
 }

@@ -60,7 +60,7 @@ PlaneErrors displace(const DisplacementTrial& trial, const Surroundings& others,
         const double error = dot(contour_points[i].position - at[i].position, at[i].normal);
         const double offset = offset_at(at[i], movement.points, movement.prior, movement.offsets);
         const double reachable = std::clamp(error, at[i].least_mm, at[i].most_mm);
-        errors.points.push_back({contour_points[i].position, trial.distance_mm, error, error - offset, reachable, 0});
+        errors.points.push_back({trial.distance_mm, error, error - offset, reachable, 0});
     }
     return errors;
 }

@@ -18,7 +18,6 @@ inline constexpr double kFoldSpacing = 0.04;
 
 /// A point of a drawn contour and how far the surface through the contours of the other planes passes from it.
 struct HeldOutPoint {
-    Vec3 position;        ///< mm
     double distance_mm;   ///< to the nearest contour of the other planes
     double without_mm;    ///< error of what the contours alone make, along the normal, positive outwards
     double with_mm;       ///< and of what the image makes of it

@@ -102,7 +102,7 @@ PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beli
         at.prior_mm = beliefs.prior_mm(at.distance_mm);
         const double offset = offset_at(at, movement.points, movement.prior, movement.offsets);
         const double error = fold.errors_mm[i], reachable = std::clamp(error, at.least_mm, at.most_mm);
-        errors.points.push_back({fold.held_out[i], at.distance_mm, error, error - offset, reachable, plane});
+        errors.points.push_back({at.distance_mm, error, error - offset, reachable, plane});
     }
     return errors;
 }

@@ -29,9 +29,8 @@ struct FitDepths {
 
 /// What a walk tells a fit. Cells on both sides of its surface have depths, by where the probability
 /// passes one half, as steep as f is there; their noise is .03 cells where it falls steeply, else more.
-/// In drawn planes f stays as it was
-/// along the lines, and where the walk's surface comes near them beside the lines. The result refers to the
-/// walk and the fit.
+/// In drawn planes f stays as it was along the lines, and where the walk's surface comes near them beside
+/// the lines. The result refers to the walk and the fit.
 ImageData walk_data(const WalkDepths& walk, const FitDepths& alone, const Drawing& drawing, const WalkDataOptions& options,
                     const Work& work = {});
 

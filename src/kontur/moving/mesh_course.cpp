@@ -158,14 +158,15 @@ std::vector<double> MeshCourse::changes(const std::vector<Vec3>& points_mm, doub
     const Affine3 to_index = grid_.index_to_mm.inverse();
     for (std::size_t n = 0; n < points_mm.size(); ++n) {
         const Vec3 at = to_index.apply(points_mm[n]);
-        const Index3 cell{std::llround(std::floor(at.x)), std::llround(std::floor(at.y)), std::llround(std::floor(at.z))};
+        const auto below = [](double index) { return static_cast<std::int64_t>(std::floor(index)); };
+        const Index3 cell{below(at.x), below(at.y), below(at.z)};
         double sum = 0, weights = 0;
         for (int corner = 0; corner < 8; ++corner) {
             const Index3 p = Lattice::corner(cell, corner);
             const double weight = (1 - std::abs(at.x - static_cast<double>(p.i))) *
                                   (1 - std::abs(at.y - static_cast<double>(p.j))) *
                                   (1 - std::abs(at.z - static_cast<double>(p.k)));
-            // Points of a surface lie on edges: of a cell beside those that are known, rounding alone asks for corners.
+            // Points of a surface lie on edges, whose ends are known; by rounding other corners get a weight of next to 0.
             const std::optional<std::size_t> number = weight > 1e-9 ? number_of(p) : std::nullopt;
             if (!number) continue;
             const float* values = &values_[*number * moments];

@@ -14,7 +14,6 @@ namespace {
 constexpr double kValue = 0.35;  // of the depth; half leaves .01 of a straight tube away, twice makes one too thick by .03
 constexpr double kNoise = 0.2;
 constexpr double kNearby = 0.25;  // of the way: so near another plane knows
-constexpr std::size_t kMostProbes = 40;
 // Of a tube's radius: what its wall may stand out by. Of two arches and two straight tubes the mean Dice is .957; half .959,
 // which leaves less to tubes that do widen.
 constexpr double kBulge = 0.05;
@@ -59,7 +58,7 @@ void append_walls(const std::vector<DrawnRegion>& regions, const TubeWay& way, b
 
 void append(const std::vector<DrawnRegion>& regions, const TubeWay& way, std::vector<Bound>& bounds) {
     const DrawnRegion &here = regions[way.from.region], &there = regions[way.to.region];
-    for_each_step(way.from.probes, kMostProbes, [&](const Probe& probe) {
+    for_each_step(way.from.probes, kLinePlaces, [&](const Probe& probe) {
         const Vec3 off = here.section.plane.from_uv(probe.at) - way.from.center;
         const Vec3 off_there = way.to.radius_mm / way.from.radius_mm * turned(off, way.leaves, way.enters);
         const Point2 at = there.section.plane.to_uv(way.to.center + off_there);

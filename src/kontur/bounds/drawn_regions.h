@@ -79,7 +79,7 @@ constexpr double kLeastBelief = 0.01;
 /// changes the former by .00001, at most .0017, and costs the latter .002. 9 by hand do not tell.
 constexpr double kSureNoise = 0.05;
 
-/// Places at which one outline is asked.
+/// Places at which one outline is asked, and of what it encloses on a tube's way.
 constexpr std::size_t kLinePlaces = 24;
 
 /// Calls visit(place) for places at equal steps: `count` of them, up to twice as many where that does not divide, all of

@@ -141,8 +141,14 @@ std::vector<double> start_weights(const std::vector<Vec3>& centers, const Previo
     return start;
 }
 
+/// A system's centres in mm, and by how much its weights are larger than those of phi of distances in mm.
+struct InMillimetres {
+    const std::vector<Vec3>& centers;
+    double scale;
+};
+
 /// From where the previous solve ended: with its setup if that fits, or else with its weights.
-Coefficients run_after(PreviousSolve& previous, LinearSystem& system, const std::vector<Vec3>& centers_mm, double scale,
+Coefficients run_after(PreviousSolve& previous, LinearSystem& system, const InMillimetres& in_mm,
                        const SolveOptions& options, const Work& work) {
     if (previous.setup)
         if (std::optional<SharedSystem> shared = share(system, std::exchange(previous.setup, nullptr))) {
@@ -151,8 +157,8 @@ Coefficients run_after(PreviousSolve& previous, LinearSystem& system, const std:
             c.pattern = nullptr;  // of other centres
             return c;
         }
-    if (!previous.centers.empty()) system.start = start_weights(centers_mm, previous, scale);
-    if (previous.centers == centers_mm) system.pattern = previous.pattern;
+    if (!previous.centers.empty()) system.start = start_weights(in_mm.centers, previous, in_mm.scale);
+    if (previous.centers == in_mm.centers) system.pattern = previous.pattern;
     return run(system, options, work);
 }
 
@@ -223,7 +229,7 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
     if (!screened) static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane: dsysv may not notice
     const double scale = kernel_scale(options.kernel, frame);
     Coefficients c =
-        previous ? run_after(*previous, system, constraints.centers, scale, options, work) : run(system, options, work);
+        previous ? run_after(*previous, system, {constraints.centers, scale}, options, work) : run(system, options, work);
     const auto finite = [](double w) { return std::isfinite(w); };
     if (!finite(c.residual) || !std::ranges::all_of(c.weights, finite))
         throw Error(ErrorKind::singular_system, "the linear system has no finite solution");

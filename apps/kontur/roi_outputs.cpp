@@ -131,7 +131,7 @@ std::vector<LabelName> label_names(const std::vector<FittedRoi>& all) {
 }
 
 std::vector<std::string> write_label_map(const fs::path& path, const RoiResults& result, const Provenance& provenance) {
-    kontur::write_image(path, result.labels.image(), {label_names(result.all), provenance});
+    kontur::write_image(path, result.labels.image(), label_names(result.all), provenance);
     return result.labels.notes(names_of(result.all));
 }
 

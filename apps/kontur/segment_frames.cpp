@@ -156,11 +156,11 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
         work.check();
     };
     write(command.output, [&](const fs::path& path) {
-        if (!is_dicom_name(path)) return write_masks(path, result.masks, frames.step_s, mask);
+        if (!is_dicom_name(path)) return write_masks(path, result.masks, frames.step_s, label.label, facts);
         DicomSegment segment = fitted_segment(contours.attributes);
-        segment.label = mask.segment_name;
-        segment.color = to_rgb8(mask.segment_color);
-        const OutputFile file{path, known, command.series, mask.provenance};
+        segment.label = label.name;
+        segment.color = to_rgb8(label.color);
+        const OutputFile file{path, known, command.series, facts};
         for (std::string& note : write_masks_over_time(file, {result.masks}, {segment}, work))
             result.warnings.push_back(std::move(note));
     });
@@ -173,7 +173,7 @@ void segment_moving(const SegmentCommand& command, ReadContours read, Console& c
         write_file_atomically(path, volumes_csv(result.times, result.volumes, result.moments, frames.step_s));
     });
     write(command.report,
-          [&](const fs::path& path) { write_file_atomically(path, to_json_text(moving_report(result, mask.provenance))); });
+          [&](const fs::path& path) { write_file_atomically(path, to_json_text(moving_report(result, facts))); });
     outputs.commit();
     for (const std::string& warning : result.warnings) console.warn(warning);
     console.print(summary_of(command, result));

@@ -75,7 +75,7 @@ std::vector<std::string> write_labels(const fs::path& path, MovingRois& result, 
                                       const Provenance& provenance) {
     std::vector<Image> frames;
     for (const RoiLabelMap& frame : result.labels) frames.push_back(frame.image());
-    write_label_maps(path, frames, step_s, {label_names(result.all), provenance});
+    write_label_maps(path, frames, step_s, label_names(result.all), provenance);
     for (std::size_t n = 1; n < result.labels.size(); ++n) result.labels.front().add_shared(result.labels[n]);
     return result.labels.front().notes(names_of(result.all));
 }

@@ -323,7 +323,7 @@ TEST(Nifti, LabelMapsOfSeveralFramesComeBackEachWithTheNamesOfTheirLabels) {
     const fs::path path = folder.path() / "labels.nii.gz";
     const Grid grid{{2, 1, 1}, {}};
     const std::vector<Image> frames{{grid, std::vector<std::uint8_t>{1, 0}}, {grid, std::vector<std::uint8_t>{2, 1}}};
-    write_label_maps(path, frames, 0.05, {.names = {{1, "core", {}}, {2, "ball", {}}, {3, "not there", {}}}});
+    write_label_maps(path, frames, 0.05, {{1, "core", {}}, {2, "ball", {}}, {3, "not there", {}}});
     ASSERT_EQ(read_image_frames(path).count, 2);
     EXPECT_NEAR(read_image_frames(path).step_s.value_or(0), 0.05, 1e-8);
     for (std::int64_t n = 0; n < 2; ++n) {

@@ -387,15 +387,15 @@ void LabelFrames::add(const All& all) {
     Image& image = frames_.emplace_back(Image{all.front().segmentation.mask.grid, labels});
     if (std::ranges::max(values) <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
     if (frames_.size() > 1) return;
-    options_.provenance = together(all, values);
+    provenance_ = together(all, values);
     for (std::size_t n = 0; n < all.size(); ++n)
-        options_.names.push_back({values[n], all[n].structure.name, rgb(all[n].structure.color)});
+        names_.push_back({values[n], all[n].structure.name, rgb(all[n].structure.color)});
 }
 
-void LabelFrames::write_first(const fs::path& path) const { write_image(path, frames_.front(), options_); }
+void LabelFrames::write_first(const fs::path& path) const { write_image(path, frames_.front(), names_, provenance_); }
 
 void LabelFrames::write(const fs::path& path, std::optional<double> step_s) const {
-    write_label_maps(path, frames_, step_s, options_);
+    write_label_maps(path, frames_, step_s, names_, provenance_);
 }
 
 std::vector<std::string> LabelFrames::notes() const {
@@ -403,8 +403,8 @@ std::vector<std::string> LabelFrames::notes() const {
     for (const auto& [pair, voxels] : shared_)
         notes.push_back(fmt::format("{} in {} and in {}: in the label map {} to {}, the smaller one",
                                     voxels == 1 ? "1 voxel lies" : counted(voxels, "voxel") + " lie",
-                                    options_.names[pair.first].name, options_.names[pair.second].name,
-                                    voxels == 1 ? "it belongs" : "they belong", options_.names[pair.second].name));
+                                    names_[pair.first].name, names_[pair.second].name,
+                                    voxels == 1 ? "it belongs" : "they belong", names_[pair.second].name));
     return notes;
 }
 

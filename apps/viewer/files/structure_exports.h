@@ -71,7 +71,8 @@ public:
 
 private:
     std::vector<Image> frames_;
-    WriteImageOptions options_;
+    std::vector<LabelName> names_;
+    Provenance provenance_;
     std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared_;  ///< of the larger and the smaller structure
 };
 

@@ -186,7 +186,7 @@ void write_masks(const fs::path& path, std::span<const Mask> masks, std::optiona
 }
 
 void write_label_maps(const fs::path& path, std::span<const Image> frames, std::optional<double> step_s,
-                      const WriteImageOptions& options) {
+                      std::vector<LabelName> names, const Provenance& provenance) {
     check_frames_name(path);
     if (frames.empty()) throw Error(ErrorKind::invalid_input, "there is no label map to write; at least 1 is needed");
     std::set<std::int64_t> values;
@@ -197,9 +197,7 @@ void write_label_maps(const fs::path& path, std::span<const Image> frames, std::
                                                       " has another grid or type than that of frame 1");
         for (const auto& [value, count] : count_labels(frames[n])) values.insert(value);
     }
-    std::vector<NamedLabel> labels;
-    for (const LabelName& name : options.names)
-        if (values.contains(name.label)) labels.push_back({name.label, name.name, name.color});
+    std::erase_if(names, [&](const LabelName& name) { return !values.contains(name.label); });
     std::visit(
         [&]<typename Value>(const std::vector<Value>&) {
             std::vector<Value> all;
@@ -208,8 +206,8 @@ void write_label_maps(const fs::path& path, std::span<const Image> frames, std::
                 all.insert(all.end(), its.begin(), its.end());
             }
             ImageView view(frames.front().grid, std::span<const Value>(all));
-            view.provenance = options.provenance;
-            view.labels = std::move(labels);
+            view.provenance = provenance;
+            view.labels = std::move(names);
             write_nifti(path, view, {static_cast<std::int64_t>(frames.size()), step_s});
         },
         frames.front().samples);

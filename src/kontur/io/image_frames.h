@@ -43,7 +43,7 @@ void write_masks(const std::filesystem::path& path, std::span<const Mask> masks,
 
 /// Likewise label maps, all of 8 or all of 16 bits, with a table of the names.
 void write_label_maps(const std::filesystem::path& path, std::span<const Image> frames, std::optional<double> step_s = {},
-                      const WriteImageOptions& options = {});
+                      std::vector<LabelName> names = {}, const Provenance& provenance = {});
 
 /// Throws Error(unsupported), as write_masks does, for a name of a format that holds one frame.
 void check_frames_name(const std::filesystem::path& path);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 
 #include "kontur/base/error.h"
 #include "kontur/base/instruction_sets.h"
@@ -171,9 +170,7 @@ void Preconditioner::factorise(Kernel kernel, std::span<const double> diagonal, 
     const std::vector<std::int32_t>& order = pattern_->order();
     std::vector<double> ordered;
     for (const std::int32_t point : order) ordered.push_back(diagonal[static_cast<std::size_t>(point)]);
-    const auto changes = [&](std::int32_t i) {
-        return has_changed[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
-    };
+    const auto changes = [&](std::int32_t point) { return has_changed[static_cast<std::size_t>(point)]; };
 
     const std::vector<PreconditionerPattern::Supernode>& nodes = pattern_->supernodes();
     rows_begin_.resize(nodes.size() + 1);
@@ -184,8 +181,9 @@ void Preconditioner::factorise(Kernel kernel, std::span<const double> diagonal, 
     for_top_and_nodes(4, [&](std::size_t s) {
         work_.check();
         if (s == kTop) {
-            if (std::ranges::any_of(std::views::iota(0, pattern_->top()), changes)) factorise_top(kernel, ordered);
-        } else if (std::ranges::any_of(pattern_->columns(nodes[s]), changes)) {
+            if (std::any_of(order.begin(), order.begin() + pattern_->top(), changes)) factorise_top(kernel, ordered);
+        } else if (std::ranges::any_of(pattern_->columns(nodes[s]),
+                                       [&](std::int32_t i) { return changes(order[static_cast<std::size_t>(i)]); })) {
             factorise_node(kernel, nodes[s], ordered,
                            std::span(rows_).subspan(rows_begin_[s], rows_begin_[s + 1] - rows_begin_[s]));
         }
